@@ -1,6 +1,8 @@
 #pragma once
 
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace bergamo::dem
 {
@@ -18,5 +20,15 @@ class RunError : public std::runtime_error
 public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws ConfigError "<name> is <value>: it must be <allowed>" unless the condition is met.
+inline void require(const bool is_met, const std::string_view name, const double value, const std::string_view allowed)
+{
+  if (is_met)
+    return;
+  std::ostringstream message;
+  message << name << " is " << value << ": it must be " << allowed;
+  throw ConfigError(message.str());
+}
 
 } // namespace bergamo::dem

@@ -23,7 +23,7 @@ struct Particles
   std::vector<Quaternion> orientation; ///< body to global
   std::vector<Vec3> velocity;          ///< at the half step before [m/s]
   std::vector<Vec3> angular_momentum;  ///< global frame [kg m^2/s]
-  std::vector<Vec3> angular_velocity;  ///< global frame [1/s]
+  std::vector<Vec3> angular_velocity;  ///< mean over the step before, global frame [1/s]
 
   std::vector<Vec3> force;          ///< resultant at this step [N]
   std::vector<Vec3> torque;         ///< about the centre [N m]

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "dem/core/types.h"
+
+namespace bergamo::dem
+{
+
+/// What one contact gives to its bodies: the force on body 1 (body 2 gets the opposite) and both torques about the
+/// centres, with the contact's weight. Every contact owns one, so that forces need neither locks nor atomics.
+struct Resultant
+{
+  Vec3 force = Vec3::Zero();   ///< [N]
+  Vec3 torque1 = Vec3::Zero(); ///< [N m]
+  Vec3 torque2 = Vec3::Zero(); ///< [N m]
+};
+
+} // namespace bergamo::dem

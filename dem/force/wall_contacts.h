@@ -1,0 +1,49 @@
+#pragma once
+
+#include "dem/force/contact_parameters.h"
+#include "dem/force/contact_step.h"
+#include "dem/force/resultant.h"
+#include "dem/state/particles.h"
+#include "dem/state/wall.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Contacts of grains with plane walls: candidates sorted by particle and then wall, each with its history.
+/// Body 1 is the grain, body 2 the wall: the contact normal is minus the wall's normal.
+struct WallContacts
+{
+  std::vector<std::int32_t> row; ///< candidates of particle i: row[i] .. row[i + 1]
+  std::vector<std::int32_t> particle, wall;
+  std::vector<ContactState> state;
+  std::vector<double> rest_until; ///< as in PairContacts, against particle.motion + wall.motion [m]
+  std::vector<Resultant> resultant;
+  ContactLosses losses;
+  std::int64_t n_searches = 0;
+
+  std::size_t size() const { return wall.size(); }
+
+  /// Lists the grains nearer to a wall than their bounding radius plus range [m]; history stays with its contact.
+  void renew(const Particles &particles, const std::vector<PlaneWall> &walls, double range);
+
+  /// Follows a new order of the particles, order[new] = old. The list must be renewed afterwards.
+  void reorder(const std::vector<std::int32_t> &order);
+
+  /// Drops all contacts of one wall, whose history is booked as loss; later walls move up by one.
+  void remove_wall(std::int32_t index);
+
+  /// Brings every contact to this step; adds the grains' forces to the walls, in a fixed order.
+  void compute(const Particles &particles, std::vector<PlaneWall> &walls, const ContactLaw &law,
+               const ContactParameters &parameters, double time_step);
+
+  /// Losses of all contacts since the start [J].
+  ContactLosses total_losses() const { return sum_losses(losses, state); }
+
+  /// Energy stored in all contacts [J].
+  ContactEnergy total_energy() const { return sum_energy(state); }
+};
+
+} // namespace bergamo::dem

@@ -1,0 +1,28 @@
+#include "dem/io/pvd.h"
+
+#include "dem/io/whole_file.h"
+#include "dem/io/xml.h"
+
+#include <charconv>
+
+namespace bergamo::dem
+{
+
+void write_pvd(const std::filesystem::path &path, const std::span<const std::pair<double, std::string>> frames)
+{
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n  <Collection>\n";
+  for (const auto &[time, name] : frames)
+  {
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, time).ptr;
+    text += "    <DataSet timestep=\"" + std::string(digits, end) + "\" part=\"0\" file=\"" + xml_escaped(name) +
+            "\"/>\n";
+  }
+  text += "  </Collection>\n</VTKFile>\n";
+
+  WholeFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+} // namespace bergamo::dem

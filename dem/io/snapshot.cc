@@ -1,0 +1,146 @@
+#include "dem/io/snapshot.h"
+
+#include "dem/core/error.h"
+
+#include <cstring>
+#include <span>
+
+namespace bergamo::dem
+{
+namespace
+{
+
+/// Views arrays of plain structs of doubles as doubles, and back.
+template <class T>
+std::span<const double> as_doubles(const std::vector<T> &values)
+{
+  static_assert(sizeof(T) % sizeof(double) == 0);
+  return {reinterpret_cast<const double *>(values.data()), values.size() * (sizeof(T) / sizeof(double))};
+}
+
+template <class T>
+void read_structs(const ArchiveReader &archive, const std::string &name, std::vector<T> &values)
+{
+  static_assert(sizeof(T) % sizeof(double) == 0);
+  const std::vector<double> numbers = archive.read_doubles(name);
+  constexpr std::size_t n = sizeof(T) / sizeof(double);
+  if (numbers.size() % n != 0)
+    throw RunError("the snapshot's array " + name + " has " + std::to_string(numbers.size()) +
+                   " numbers, not a multiple of " + std::to_string(n) +
+                   ": it was written by another version; start the run anew");
+  values.resize(numbers.size() / n);
+  if (!numbers.empty())
+    std::memcpy(static_cast<void *>(values.data()), numbers.data(), numbers.size() * sizeof(double));
+}
+
+void write_indices(ArchiveWriter &archive, const std::string &name, const std::vector<std::int32_t> &values)
+{
+  archive.write(name, std::vector<std::int64_t>(values.begin(), values.end()));
+}
+
+std::vector<std::int32_t> read_indices(const ArchiveReader &archive, const std::string &name)
+{
+  const std::vector<std::int64_t> values = archive.read_integers(name);
+  return {values.begin(), values.end()};
+}
+
+/// Every array of doubles of the simulation, once, for writing and for reading.
+template <class Simulation, class Hidden, class Visit>
+void visit_arrays(Simulation &s, Hidden &h, Visit &&visit)
+{
+  visit("dem/particles/shape", s.particles.shape);
+  visit("dem/particles/mass", s.particles.mass);
+  visit("dem/particles/inertia", s.particles.inertia);
+  visit("dem/particles/bounding_radius", s.particles.bounding_radius);
+  visit("dem/particles/position", s.particles.position);
+  visit("dem/particles/orientation", s.particles.orientation);
+  visit("dem/particles/velocity", s.particles.velocity);
+  visit("dem/particles/angular_momentum", s.particles.angular_momentum);
+  visit("dem/particles/angular_velocity", s.particles.angular_velocity);
+  visit("dem/particles/force", s.particles.force);
+  visit("dem/particles/torque", s.particles.torque);
+  visit("dem/particles/external_force", s.particles.external_force);
+  visit("dem/particles/weight", s.particles.weight);
+  visit("dem/particles/motion", s.particles.motion);
+  visit("dem/walls", s.walls);
+  visit("dem/pairs/state", s.pairs.state);
+  visit("dem/pairs/rest_until", s.pairs.rest_until);
+  visit("dem/pairs/resultant", s.pairs.resultant);
+  visit("dem/wall_contacts/state", s.wall_contacts.state);
+  visit("dem/wall_contacts/rest_until", s.wall_contacts.rest_until);
+  visit("dem/wall_contacts/resultant", s.wall_contacts.resultant);
+  visit("dem/hidden/position_when_built", h.position_when_built);
+  visit("dem/hidden/wall_motion_when_built", h.wall_motion_when_built);
+  visit("dem/hidden/external_work", h.external_work);
+  visit("dem/hidden/last_external_force", h.last_external_force);
+}
+
+template <class Simulation, class Visit>
+void visit_indices(Simulation &s, Visit &&visit)
+{
+  visit("dem/pairs/row", s.pairs.list.row);
+  visit("dem/pairs/first", s.pairs.list.first);
+  visit("dem/pairs/second", s.pairs.list.second);
+  visit("dem/pairs/incoming_row", s.pairs.list.incoming_row);
+  visit("dem/pairs/incoming", s.pairs.list.incoming);
+  visit("dem/wall_contacts/row", s.wall_contacts.row);
+  visit("dem/wall_contacts/particle", s.wall_contacts.particle);
+  visit("dem/wall_contacts/wall", s.wall_contacts.wall);
+  visit("dem/index_of_id", s.index_of_id);
+}
+
+/// Scalars in a fixed order.
+template <class Simulation, class Hidden, class Visit>
+void visit_scalars(Simulation &s, Hidden &h, Visit &&visit)
+{
+  visit("dem/time", s.time);
+  visit("dem/pairs/friction_loss", s.pairs.losses.friction);
+  visit("dem/pairs/viscous_loss", s.pairs.losses.viscous);
+  visit("dem/wall_contacts/friction_loss", s.wall_contacts.losses.friction);
+  visit("dem/wall_contacts/viscous_loss", s.wall_contacts.losses.viscous);
+  visit("dem/hidden/verlet_distance", h.verlet_distance);
+  visit("dem/hidden/largest_square_motion", h.largest_square_motion);
+  visit("dem/hidden/start_potential", h.start_potential);
+  visit("dem/n_steps", s.n_steps);
+  visit("dem/n_rebuilds", s.n_rebuilds);
+  visit("dem/pairs/n_undecided", s.pairs.n_undecided);
+  visit("dem/pairs/n_searches", s.pairs.n_searches);
+  visit("dem/wall_contacts/n_searches", s.wall_contacts.n_searches);
+}
+
+} // namespace
+
+void write_simulation(ArchiveWriter &archive, const Simulation &s)
+{
+  archive.write("dem/particles/id", s.particles.id);
+  archive.write("dem/friction", s.parameters().friction);
+  archive.write("dem/time_step", s.parameters().time_step);
+  visit_arrays(s, s.hidden(), [&](const char *name, const auto &values) { archive.write(name, as_doubles(values)); });
+  visit_indices(s, [&](const char *name, const auto &values) { write_indices(archive, name, values); });
+  visit_scalars(s, s.hidden(), [&](const char *name, const auto value) { archive.write(name, value); });
+}
+
+std::unique_ptr<Simulation> read_simulation(const ArchiveReader &archive, const SimulationParameters &parameters)
+{
+  SimulationParameters stored = parameters;
+  stored.friction = archive.read_double("dem/friction");
+  stored.time_step = archive.read_double("dem/time_step");
+  Simulation::Hidden hidden;
+  auto simulation = Simulation::empty(stored);
+  Simulation &s = *simulation;
+  s.particles.id = archive.read_integers("dem/particles/id");
+  visit_arrays(s, hidden, [&](const char *name, auto &values) { read_structs(archive, name, values); });
+  visit_indices(s, [&](const char *name, auto &values) { values = read_indices(archive, name); });
+  visit_scalars(s, hidden,
+                [&]<class T>(const char *name, T &value)
+                {
+                  if constexpr (std::is_same_v<T, double>)
+                    value = archive.read_double(name);
+                  else
+                    value = archive.read_integer(name);
+                });
+  s.restore(std::move(hidden));
+  return simulation;
+}
+
+} // namespace bergamo::dem

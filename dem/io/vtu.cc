@@ -1,0 +1,247 @@
+#include "dem/io/vtu.h"
+
+#include "dem/core/error.h"
+#include "dem/core/parallel.h"
+#include "dem/io/whole_file.h"
+#include "dem/io/xml.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+namespace
+{
+
+constexpr std::uint8_t vtk_triangle = 5, vtk_quadrilateral = 9;
+
+/// Points and faces of one grain: the poles first and last, rings of longitudes between them from north to south.
+struct Globe
+{
+  int quarter;
+  int n_rings, n_longitudes, n_points;
+  std::vector<int> connectivity; ///< corners of each face, counter-clockwise from outside
+  std::vector<int> face_end;     ///< end of each face in the connectivity
+  std::vector<std::uint8_t> face_type;
+
+  explicit Globe(const int n_per_quarter)
+      : quarter(n_per_quarter), n_rings(2 * quarter - 1), n_longitudes(4 * quarter),
+        n_points(n_rings * n_longitudes + 2)
+  {
+    const int north = 0, south = n_points - 1;
+    for (int j = 0; j < n_longitudes; ++j)
+      add_face({north, point(0, j), point(0, j + 1)});
+    for (int ring = 0; ring + 1 < n_rings; ++ring)
+      for (int j = 0; j < n_longitudes; ++j)
+        add_face({point(ring, j), point(ring + 1, j), point(ring + 1, j + 1), point(ring, j + 1)});
+    for (int j = 0; j < n_longitudes; ++j)
+      add_face({point(n_rings - 1, j), south, point(n_rings - 1, j + 1)});
+  }
+
+  int point(const int ring, const int longitude) const { return 1 + ring * n_longitudes + longitude % n_longitudes; }
+
+  void add_face(const std::initializer_list<int> corners)
+  {
+    connectivity.insert(connectivity.end(), corners);
+    face_end.push_back(static_cast<int>(connectivity.size()));
+    face_type.push_back(corners.size() == 3 ? vtk_triangle : vtk_quadrilateral);
+  }
+
+  /// Surface points of a shape in the body frame. The shape is symmetric to its three planes, so one eighth is
+  /// computed; what lies on a plane is put there exactly, for |cos(pi/2)|^eps is far from 0 for a small eps.
+  void points(const Superquadric &shape, std::vector<Vec3> &result) const
+  {
+    const double step = std::numbers::pi / (2. * quarter);
+    std::vector<Vec3> eighth((quarter + 1) * (quarter + 1));
+    for (int i = 0; i <= quarter; ++i)
+      for (int j = 0; j <= quarter; ++j)
+      {
+        Vec3 &point = eighth[i * (quarter + 1) + j];
+        point = surface_point(shape, i * step, j * step);
+        if (i == quarter || j == quarter)
+          point.x() = 0.;
+        if (i == quarter || j == 0)
+          point.y() = 0.;
+        if (i == 0)
+          point.z() = 0.;
+      }
+
+    result.resize(n_points);
+    result.front() = Vec3(0., 0., shape.half_axes.z());
+    result.back() = -result.front();
+    for (int ring = 0; ring < n_rings; ++ring)
+      for (int longitude = 0; longitude < n_longitudes; ++longitude)
+      {
+        const int i = quarter - (ring + 1);
+        const int sector = longitude / quarter, rest = longitude % quarter;
+        const int j = sector % 2 == 0 ? rest : quarter - rest;
+        const Vec3 sign(sector == 1 || sector == 2 ? -1. : 1., sector >= 2 ? -1. : 1., i < 0 ? -1. : 1.);
+        result[point(ring, longitude)] = sign.cwiseProduct(eighth[std::abs(i) * (quarter + 1) + j]);
+      }
+  }
+};
+
+/// One array of the file. Every grain fills the same number of bytes.
+struct Array
+{
+  std::string attributes;
+  std::size_t bytes_per_grain;
+  std::function<void(std::size_t grain, std::byte *bytes)> fill;
+};
+
+template <class Value>
+void put(std::byte *&bytes, const Value value)
+{
+  std::memcpy(bytes, &value, sizeof value);
+  bytes += sizeof value;
+}
+
+void put(std::byte *&bytes, const Vec3 &vector)
+{
+  for (int i = 0; i < 3; ++i)
+    put(bytes, static_cast<float>(vector[i]));
+}
+
+std::string attributes(const std::string &type, const std::string &name, const int n_components = 1)
+{
+  return "type=\"" + type + "\" Name=\"" + xml_escaped(name) + "\" NumberOfComponents=\"" +
+         std::to_string(n_components) + "\"";
+}
+
+/// Value of a grain, repeated on each of its faces.
+template <class Value>
+Array cell_array(const std::string &attributes, const std::size_t bytes, const int n_faces, Value value)
+{
+  return {attributes, n_faces * bytes, [n_faces, value](const std::size_t grain, std::byte *out) {
+            for (int face = 0; face < n_faces; ++face)
+              put(out, value(grain));
+          }};
+}
+
+/// Indices that grow by `shift` from one grain to the next.
+template <class Index>
+Array index_array(const std::string &attributes, const std::vector<int> &first, const std::size_t shift)
+{
+  return {attributes, first.size() * sizeof(Index), [&first, shift](const std::size_t grain, std::byte *out) {
+            for (const int index : first)
+              put(out, static_cast<Index>(grain * shift + index));
+          }};
+}
+
+Array index_array(const std::string &name, const std::vector<int> &first, const std::size_t shift,
+                  const std::size_t largest)
+{
+  return largest <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())
+             ? index_array<std::int32_t>(attributes("Int32", name), first, shift)
+             : index_array<std::int64_t>(attributes("Int64", name), first, shift);
+}
+
+/// Section of the XML part; `offset` runs on through the binary part.
+std::string section(const std::string &name, const std::span<const Array> arrays, const std::size_t n_grains,
+                    std::size_t &offset)
+{
+  std::string text = "      <" + name + ">\n";
+  for (const Array &array : arrays)
+  {
+    text += "        <DataArray " + array.attributes + " format=\"appended\" offset=\"" + std::to_string(offset) +
+            "\"/>\n";
+    offset += sizeof(std::uint64_t) + n_grains * array.bytes_per_grain;
+  }
+  return text + "      </" + name + ">\n";
+}
+
+void write(WholeFile &file, const Array &array, const std::size_t n_grains)
+{
+  const std::uint64_t size = n_grains * array.bytes_per_grain;
+  file.write(&size, sizeof size);
+  constexpr std::size_t grains_at_once = 2048;
+  std::vector<std::byte> block;
+  for (std::size_t first = 0; first < n_grains; first += grains_at_once)
+  {
+    const std::size_t n = std::min(grains_at_once, n_grains - first);
+    block.resize(n * array.bytes_per_grain);
+    parallel_for(n, [&](const std::size_t i) { array.fill(first + i, block.data() + i * array.bytes_per_grain); });
+    file.write(block.data(), block.size());
+  }
+}
+
+} // namespace
+
+void write_grains_vtu(const Particles &particles, const std::span<const GrainField> fields,
+                      const std::filesystem::path &path, const int n_per_quarter)
+{
+  if (n_per_quarter < 2 || n_per_quarter % 2 != 0)
+    throw ConfigError("grain surfaces need an even number of steps a quarter turn, at least 2, not " +
+                      std::to_string(n_per_quarter));
+  for (const GrainField &field : fields)
+    if (field.values.size() != particles.size())
+      throw ConfigError("field '" + field.name + "' has " + std::to_string(field.values.size()) + " values for " +
+                        std::to_string(particles.size()) + " grains: give one value a grain");
+
+  const Globe globe(n_per_quarter);
+  const std::size_t n_grains = particles.size();
+  const std::size_t n_points = globe.n_points;
+  const int n_faces = static_cast<int>(globe.face_end.size());
+
+  const Array points{attributes("Float32", "Points", 3), n_points * 3 * sizeof(float),
+                     [&](const std::size_t grain, std::byte *out) {
+                       thread_local std::vector<Vec3> body;
+                       globe.points(particles.shape[grain], body);
+                       const Mat3 turn = particles.orientation[grain].toRotationMatrix();
+                       for (const Vec3 &point : body)
+                         put(out, Vec3(particles.position[grain] + turn * point));
+                     }};
+  const std::size_t n_corners = globe.connectivity.size();
+  const Array types{attributes("UInt8", "types"), globe.face_type.size(),
+                    [&](std::size_t, std::byte *out) { std::memcpy(out, globe.face_type.data(), n_faces); }};
+  const std::vector<Array> cells{index_array("connectivity", globe.connectivity, n_points, n_grains * n_points),
+                                 index_array("offsets", globe.face_end, n_corners, n_grains * n_corners), types};
+
+  const auto vectors = [&](const std::string &name, const std::vector<Vec3> &values) {
+    return cell_array(attributes("Float32", name, 3), 3 * sizeof(float), n_faces,
+                      [&values](const std::size_t grain) -> const Vec3 & { return values[grain]; });
+  };
+  const auto scalars = [&](const std::string &name, const std::span<const double> values) {
+    return cell_array(attributes("Float32", name), sizeof(float), n_faces,
+                      [values](const std::size_t grain) { return static_cast<float>(values[grain]); });
+  };
+  std::vector<Array> cell_data{cell_array(attributes("Int64", "id"), sizeof(std::int64_t), n_faces,
+                                          [&](const std::size_t grain) { return particles.id[grain]; }),
+                               vectors("velocity", particles.velocity),
+                               vectors("angular_velocity", particles.angular_velocity),
+                               scalars("bounding_radius", particles.bounding_radius)};
+  for (const GrainField &field : fields)
+    cell_data.push_back(scalars(field.name, field.values));
+
+  std::size_t offset = 0;
+  std::string head = "<?xml version=\"1.0\"?>\n"
+                     "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                     "header_type=\"UInt64\">\n"
+                     "  <UnstructuredGrid>\n"
+                     "    <Piece NumberOfPoints=\"" +
+                     std::to_string(n_grains * n_points) + "\" NumberOfCells=\"" + std::to_string(n_grains * n_faces) +
+                     "\">\n";
+  head += section("Points", {&points, 1}, n_grains, offset);
+  head += section("Cells", cells, n_grains, offset);
+  head += section("CellData", cell_data, n_grains, offset);
+  head += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
+
+  WholeFile file(path);
+  file.write(head);
+  write(file, points, n_grains);
+  for (const Array &array : cells)
+    write(file, array, n_grains);
+  for (const Array &array : cell_data)
+    write(file, array, n_grains);
+  file.write("\n  </AppendedData>\n</VTKFile>\n");
+  file.commit();
+}
+
+} // namespace bergamo::dem

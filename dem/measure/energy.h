@@ -1,0 +1,29 @@
+#pragma once
+
+#include "dem/force/contact_step.h"
+#include "dem/state/particles.h"
+#include "dem/state/wall.h"
+
+#include <span>
+
+namespace bergamo::dem
+{
+
+/// Energies of the grains at one step and what flowed in and out since the start, all with the grains' and contacts'
+/// weights [J]. In exact arithmetic kinetic + elastic + losses - work stays constant.
+struct GrainEnergy
+{
+  double kinetic = 0.;       ///< m v-.v+ / 2 of the half steps around, and H-.T I^-1 T^T H+ / 2
+  double normal = 0.;        ///< stored in the contacts' normal springs
+  double tangential = 0.;    ///< stored in their tangential springs
+  double friction_loss = 0.; ///< lost tangentially
+  double viscous_loss = 0.;  ///< lost in the dashpots
+  double wall_work = 0.;     ///< done by walls on grains
+  double gravity_work = 0.;
+  double external_work = 0.; ///< done by Particles::external_force
+
+  double stored() const { return kinetic + normal + tangential; }
+  double balance() const { return stored() + friction_loss + viscous_loss - wall_work - gravity_work - external_work; }
+};
+
+} // namespace bergamo::dem

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "dem/force/pair_contacts.h"
+#include "dem/force/wall_contacts.h"
+#include "dem/state/particles.h"
+
+namespace bergamo::dem
+{
+
+/// Longest time step for which the leapfrog scheme with its lagged dashpots is stable for the present contacts [s]:
+///   lambda_max( M^-1 (K dt^2/4 + C dt/2) ) = 1,
+/// K and C the stiffness and damping of all contacts, translations and rotations, found by power iteration.
+/// Infinity without contacts. Contacts grow stiffer as they are pressed: leave a margin.
+/// @param guess a time step near the answer [s]
+double stable_time_step(const Particles &particles, const PairContacts &pairs, const ContactLaw &pair_law,
+                        const WallContacts &walls, const ContactLaw &wall_law, double guess);
+
+} // namespace bergamo::dem

@@ -1,0 +1,57 @@
+#include "dem/neighbour/cell_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bergamo::dem
+{
+
+CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size)
+{
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
+  for (const Vec3 &x : positions)
+  {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const Vec3 extent = positions.empty() ? Vec3::Zero() : Vec3(high - low);
+  const double most_cells = 8. * positions.size() + 64.;
+  const auto cells = [&](const double size) { return (extent / size).array().floor() + 1.; };
+  while (cells(cell_size).prod() > most_cells)
+    cell_size *= 1.5;
+  for (int d = 0; d < 3; ++d)
+    n[d] = static_cast<int>(cells(cell_size)[d]);
+
+  cell_of.resize(positions.size());
+  begin.assign(static_cast<std::size_t>(n[0]) * n[1] * n[2] + 1, 0);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    int k[3];
+    for (int d = 0; d < 3; ++d)
+      k[d] = std::clamp(static_cast<int>((positions[i][d] - low[d]) / cell_size), 0, n[d] - 1);
+    cell_of[i] = (k[2] * n[1] + k[1]) * n[0] + k[0];
+    ++begin[cell_of[i] + 1];
+  }
+  for (std::size_t c = 1; c < begin.size(); ++c)
+    begin[c] += begin[c - 1];
+  particles.resize(positions.size());
+  std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    particles[next[cell_of[i]]++] = static_cast<std::int32_t>(i);
+}
+
+std::vector<std::int32_t> spatial_order(const std::span<const Vec3> positions, const double cell_size)
+{
+  return CellGrid(positions, cell_size).particles;
+}
+
+std::vector<std::int32_t> inverse_order(const std::span<const std::int32_t> order)
+{
+  std::vector<std::int32_t> new_index(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    new_index[order[i]] = static_cast<std::int32_t>(i);
+  return new_index;
+}
+
+} // namespace bergamo::dem

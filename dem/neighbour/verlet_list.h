@@ -1,0 +1,28 @@
+#pragma once
+
+#include "dem/core/types.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Pairs (i, j), i < j, whose bounding spheres are nearer than the Verlet distance, sorted by i and then j.
+/// Pairs of particle i: pair indices row[i] .. row[i + 1]; the other partner is second[pair].
+/// Pairs in which i stands second: incoming[incoming_row[i]] .. incoming[incoming_row[i + 1]].
+struct VerletList
+{
+  std::vector<std::int32_t> row;
+  std::vector<std::int32_t> first, second;
+  std::vector<std::int32_t> incoming_row, incoming;
+
+  std::size_t size() const { return second.size(); }
+};
+
+/// @param positions centres [m]; @param radii bounding radii [m]; @param verlet_distance [m], >= 0:
+/// the list holds until any particle has moved half of it (Wellmann 3.48).
+VerletList build_verlet_list(std::span<const Vec3> positions, std::span<const double> radii, double verlet_distance);
+
+} // namespace bergamo::dem

@@ -1,0 +1,128 @@
+#include "dem/packing/compression.h"
+
+#include "dem/core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace bergamo::dem
+{
+
+std::vector<PlaneWall> box_walls(const Box &box)
+{
+  std::vector<PlaneWall> walls(6);
+  for (int d = 0; d < 3; ++d)
+  {
+    walls[2 * d].point = box.low;
+    walls[2 * d].normal = Vec3::Unit(d);
+    walls[2 * d + 1].point = box.high;
+    walls[2 * d + 1].normal = -Vec3::Unit(d);
+  }
+  return walls;
+}
+
+Box box_between(const std::vector<PlaneWall> &walls)
+{
+  Box box;
+  for (int d = 0; d < 3; ++d)
+  {
+    box.low[d] = walls[2 * d].point[d];
+    box.high[d] = walls[2 * d + 1].point[d];
+  }
+  return box;
+}
+
+Vec3 wall_pressure(const std::vector<PlaneWall> &walls)
+{
+  const Vec3 edges = box_between(walls).edges();
+  Vec3 pressure;
+  for (int d = 0; d < 3; ++d)
+    pressure[d] = 0.5 * (walls[2 * d + 1].force[d] - walls[2 * d].force[d]) * edges[d] / edges.prod();
+  return pressure;
+}
+
+void CompressionParameters::validate() const
+{
+  require(pressure > 0. && std::isfinite(pressure), "pressure of the compression", pressure, "positive [Pa]");
+  require(largest_rate > 0. && largest_rate <= 1000., "largest strain rate of the compression", largest_rate, "in (0, 1000] 1/s");
+  require(pressure_tolerance > 0. && pressure_tolerance < 1., "pressure tolerance", pressure_tolerance, "in (0, 1)");
+  require(force_tolerance > 0. && force_tolerance < 1., "force tolerance", force_tolerance, "in (0, 1)");
+  require(longest_time > 0. && std::isfinite(longest_time), "longest time of the compression", longest_time, "positive [s]");
+}
+
+Compression::Compression(const CompressionParameters &parameters) : p(parameters)
+{
+  p.validate();
+  rate.fill(p.largest_rate);
+  last_sign.fill(1.);
+}
+
+void Compression::step(Simulation &simulation)
+{
+  constexpr std::int64_t check_interval = 50; // steps
+  constexpr double recovery = 1.05, reduction = 0.5, smallest_share = 1e-5;
+
+  simulation.compute_forces();
+  const Vec3 pressure = wall_pressure(simulation.walls);
+  const Vec3 edges = box_between(simulation.walls).edges();
+  const bool is_check = simulation.n_steps % check_interval == 0;
+  bool pressures_hold = true;
+  for (int d = 0; d < 3; ++d)
+  {
+    const double miss = (p.pressure - pressure[d]) / p.pressure;
+    const double sign = miss > 0. ? 1. : -1.;
+    if (is_check)
+    {
+      rate[d] = std::clamp(rate[d] * (sign != last_sign[d] ? reduction : recovery), smallest_share * p.largest_rate,
+                           p.largest_rate);
+      last_sign[d] = sign;
+    }
+    pressures_hold = pressures_hold && std::abs(miss) < p.pressure_tolerance;
+    const double speed = 0.5 * edges[d] * rate[d] * std::clamp(miss, -1., 1.);
+    simulation.walls[2 * d].velocity = speed * Vec3::Unit(d);
+    simulation.walls[2 * d + 1].velocity = -speed * Vec3::Unit(d);
+  }
+  if (is_check)
+  {
+    unbalance = pressures_hold ? dem::unbalanced_force(simulation) : 1.;
+    n_checks_passed = pressures_hold && unbalance < p.force_tolerance ? n_checks_passed + 1. : 0.;
+  }
+  simulation.integrate();
+  if (simulation.time > p.longest_time)
+  {
+    std::ostringstream message;
+    message << "the packing did not come to rest within " << p.longest_time << " s: pressures "
+            << pressure.transpose() << " Pa, unbalanced force " << unbalance
+            << "; allow more time, a larger tolerance or a smaller strain rate";
+    throw RunError(message.str());
+  }
+}
+
+double unbalanced_force(const Simulation &simulation)
+{
+  double resultant = 0., contact = 0.;
+  std::size_t n_loaded = 0, n_contacts = 0;
+  for (std::size_t i = 0; i < simulation.particles.size(); ++i)
+  {
+    const double f = simulation.particles.force[i].norm();
+    resultant += f;
+    n_loaded += f > 0.;
+  }
+  const auto add = [&](const std::vector<ContactState> &states)
+  {
+    for (const ContactState &s : states)
+      if (s.touching != 0.)
+      {
+        contact += std::hypot(s.normal_force, s.tangential_force.norm());
+        ++n_contacts;
+      }
+  };
+  add(simulation.pairs.state);
+  add(simulation.wall_contacts.state);
+  if (n_loaded == 0 || n_contacts == 0 || contact == 0.)
+    return 1.;
+  return (resultant / n_loaded) / (contact / n_contacts);
+}
+
+} // namespace bergamo::dem

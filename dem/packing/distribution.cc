@@ -1,0 +1,69 @@
+#include "dem/packing/distribution.h"
+
+#include "dem/core/error.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace bergamo::dem
+{
+void GrainDistribution::validate() const
+{
+  require(smallest_half_axis > 0., "smallest half-axis", smallest_half_axis, "positive [m]");
+  require(largest_half_axis > smallest_half_axis && std::isfinite(largest_half_axis), "largest half-axis",
+          largest_half_axis, "larger than the smallest half-axis [m]");
+  for (int d = 0; d < 3; ++d)
+    require(mean_half_axes[d] >= smallest_half_axis && mean_half_axes[d] <= largest_half_axis, "mean half-axis",
+            mean_half_axes[d], "between the smallest and the largest half-axis [m]");
+  require(relative_deviation >= 0. && relative_deviation <= 1., "relative deviation of the half-axes",
+          relative_deviation, "in [0, 1]");
+  require(smallest_exponent > 0. && smallest_exponent < 2., "smallest exponent", smallest_exponent, "in (0, 2)");
+  require(largest_exponent >= smallest_exponent && largest_exponent < 2., "largest exponent", largest_exponent,
+          "in [smallest exponent, 2)");
+}
+
+Superquadric draw_grain(const GrainDistribution &distribution, std::mt19937_64 &generator)
+{
+  Superquadric grain;
+  for (int d = 0; d < 3; ++d)
+  {
+    const double mean = distribution.mean_half_axes[d];
+    std::normal_distribution<double> half_axis(mean, distribution.relative_deviation * mean);
+    do
+      grain.half_axes[d] = half_axis(generator);
+    while (!(grain.half_axes[d] >= distribution.smallest_half_axis &&
+             grain.half_axes[d] <= distribution.largest_half_axis));
+  }
+  std::uniform_real_distribution<double> exponent(distribution.smallest_exponent, distribution.largest_exponent);
+  grain.eps1 = exponent(generator);
+  grain.eps2 = exponent(generator);
+  return grain;
+}
+
+std::vector<Superquadric> draw_grains(const GrainDistribution &distribution, const double solid_volume,
+                                      std::mt19937_64 &generator)
+{
+  distribution.validate();
+  std::vector<Superquadric> grains;
+  double sum = 0.;
+  while (true)
+  {
+    const Superquadric grain = draw_grain(distribution, generator);
+    const double v = volume(grain);
+    if (sum + 0.5 * v > solid_volume && !grains.empty())
+      return grains;
+    sum += v;
+    grains.push_back(grain);
+  }
+}
+
+Quaternion draw_orientation(std::mt19937_64 &generator)
+{
+  std::uniform_real_distribution<double> uniform(0., 1.);
+  const double u = uniform(generator), a = 2. * std::numbers::pi * uniform(generator),
+               b = 2. * std::numbers::pi * uniform(generator);
+  const double s = std::sqrt(1. - u), c = std::sqrt(u);
+  return Quaternion(c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b));
+}
+
+} // namespace bergamo::dem

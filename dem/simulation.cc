@@ -1,0 +1,294 @@
+#include "dem/simulation.h"
+
+#include "dem/core/error.h"
+#include "dem/core/parallel.h"
+#include "dem/motion/rotation.h"
+#include "dem/motion/stable_step.h"
+#include "dem/neighbour/cell_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace bergamo::dem
+{
+namespace
+{
+
+template <class T>
+void permute(std::vector<T> &values, const std::vector<std::int32_t> &order)
+{
+  std::vector<T> sorted;
+  sorted.reserve(values.size());
+  for (const std::int32_t old : order)
+    sorted.push_back(values[old]);
+  values = std::move(sorted);
+}
+
+} // namespace
+
+void SimulationParameters::validate() const
+{
+  grain.validate();
+  wall.validate();
+  contact.validate();
+  require(friction >= 0. && std::isfinite(friction), "friction coefficient", friction, "at least 0");
+  require(wall_friction >= 0. && std::isfinite(wall_friction), "wall friction coefficient", wall_friction, "at least 0");
+  require(damping_ratio >= 0. && std::isfinite(damping_ratio), "damping ratio", damping_ratio, "at least 0");
+  require(time_step > 0. && std::isfinite(time_step), "time step", time_step, "positive [s]");
+  require(verlet_distance > 0. && verlet_distance <= 2., "Verlet distance", verlet_distance,
+          "in (0, 2] mean bounding radii");
+  require(gravity.allFinite(), "gravity", gravity.norm(), "finite [m/s^2]");
+}
+
+Simulation::Simulation(const SimulationParameters &parameters) : p(parameters)
+{
+  p.validate();
+  pair_law = {elastic_pair(p.grain, p.grain), p.friction, p.damping_ratio};
+  wall_law = {elastic_pair(p.grain, p.wall), p.wall_friction, p.damping_ratio};
+}
+
+std::unique_ptr<Simulation> Simulation::empty(const SimulationParameters &parameters)
+{
+  return std::unique_ptr<Simulation>(new Simulation(parameters));
+}
+
+Simulation::Simulation(const SimulationParameters &parameters, Particles new_particles, std::vector<PlaneWall> new_walls)
+    : Simulation(parameters)
+{
+  particles = std::move(new_particles);
+  walls = std::move(new_walls);
+  if (particles.size() == 0)
+    throw ConfigError("a simulation needs at least one grain");
+  const double mean_radius =
+      std::accumulate(particles.bounding_radius.begin(), particles.bounding_radius.end(), 0.) / particles.size();
+  h.verlet_distance = p.verlet_distance * mean_radius;
+  h.external_work.assign(particles.size(), 0.);
+  h.last_external_force.assign(particles.size(), Vec3::Zero());
+  index_of_id.resize(particles.size());
+  sort_by_place();
+  h.start_potential = gravity_potential();
+}
+
+void Simulation::set_friction(const double friction)
+{
+  p.friction = friction;
+  p.validate();
+  pair_law.friction = friction;
+}
+
+void Simulation::set_time_step(const double time_step)
+{
+  p.time_step = time_step;
+  p.validate();
+}
+
+void Simulation::rebuild_neighbours()
+{
+  pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, h.verlet_distance), particles);
+  wall_contacts.renew(particles, walls, h.verlet_distance);
+  h.position_when_built = particles.position;
+  h.largest_square_motion = 0.;
+  h.wall_motion_when_built.clear();
+  for (const PlaneWall &wall : walls)
+    h.wall_motion_when_built.push_back(wall.motion);
+  ++n_rebuilds;
+}
+
+void Simulation::sort_by_place()
+{
+  const double largest = *std::max_element(particles.bounding_radius.begin(), particles.bounding_radius.end());
+  const std::vector<std::int32_t> order = spatial_order(particles.position, 2. * largest);
+  permute(particles.id, order);
+  permute(particles.shape, order);
+  permute(particles.mass, order);
+  permute(particles.inertia, order);
+  permute(particles.bounding_radius, order);
+  permute(particles.position, order);
+  permute(particles.orientation, order);
+  permute(particles.velocity, order);
+  permute(particles.angular_momentum, order);
+  permute(particles.angular_velocity, order);
+  permute(particles.force, order);
+  permute(particles.torque, order);
+  permute(particles.external_force, order);
+  permute(particles.weight, order);
+  permute(particles.motion, order);
+  permute(h.external_work, order);
+  permute(h.last_external_force, order);
+  pairs.reorder(order, particles);
+  wall_contacts.reorder(order);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    index_of_id[particles.id[i]] = static_cast<std::int32_t>(i);
+  rebuild_neighbours();
+}
+
+void Simulation::remove_wall(const std::int32_t index)
+{
+  wall_contacts.remove_wall(index);
+  walls.erase(walls.begin() + index);
+  rebuild_neighbours();
+}
+
+void Simulation::compute_forces()
+{
+  bool wall_moved = false;
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    wall_moved = wall_moved || walls[w].motion - h.wall_motion_when_built[w] > 0.5 * h.verlet_distance;
+  if (wall_moved || h.largest_square_motion > 0.25 * h.verlet_distance * h.verlet_distance)
+    rebuild_neighbours();
+
+  pairs.compute(particles, pair_law, p.contact, p.time_step);
+  wall_contacts.compute(particles, walls, wall_law, p.contact, p.time_step);
+  sum_contact_forces();
+}
+
+void Simulation::sum_contact_forces()
+{
+  const VerletList &list = pairs.list;
+  parallel_for(particles.size(),
+               [&](const std::size_t i)
+               {
+                 Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+                 for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
+                   if (pairs.rest_until[pair] < 0.) // else apart: its slot is void
+                   {
+                     force += pairs.resultant[pair].force;
+                     torque += pairs.resultant[pair].torque1;
+                   }
+                 for (auto k = list.incoming_row[i]; k < list.incoming_row[i + 1]; ++k)
+                 {
+                   const auto pair = list.incoming[k];
+                   if (pairs.rest_until[pair] < 0.)
+                   {
+                     force -= pairs.resultant[pair].force;
+                     torque += pairs.resultant[pair].torque2;
+                   }
+                 }
+                 for (auto k = wall_contacts.row[i]; k < wall_contacts.row[i + 1]; ++k)
+                 {
+                   force += wall_contacts.resultant[k].force;
+                   torque += wall_contacts.resultant[k].torque1;
+                 }
+                 particles.force[i] = force;
+                 particles.torque[i] = torque;
+               });
+}
+
+void Simulation::integrate()
+{
+  const double dt = p.time_step;
+  double largest = h.largest_square_motion;
+#pragma omp parallel for schedule(static) reduction(max : largest)
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    Vec3 &v = particles.velocity[i];
+    const Vec3 &external = particles.external_force[i];
+    h.external_work[i] += 0.5 * dt * (h.last_external_force[i] + external).dot(v);
+    h.last_external_force[i] = external;
+
+    v += dt * ((particles.force[i] + external) / (particles.weight[i] * particles.mass[i]) + p.gravity);
+    particles.position[i] += dt * v;
+
+    Vec3 &momentum = particles.angular_momentum[i];
+    momentum += dt / particles.weight[i] * particles.torque[i];
+    const Vec3 omega = mean_angular_velocity(particles.orientation[i], particles.inertia[i], momentum, dt);
+    particles.angular_velocity[i] = omega;
+    particles.orientation[i] = (rotation(dt * omega) * particles.orientation[i]).normalized();
+
+    particles.motion[i] += dt * (v.norm() + omega.norm() * particles.bounding_radius[i]);
+    largest = std::max(largest, (particles.position[i] - h.position_when_built[i]).squaredNorm());
+  }
+  h.largest_square_motion = largest;
+  for (PlaneWall &wall : walls)
+  {
+    wall.point += dt * wall.velocity;
+    wall.motion += dt * wall.velocity.norm();
+  }
+  time += dt;
+  ++n_steps;
+}
+
+void Simulation::rest()
+{
+  std::fill(particles.velocity.begin(), particles.velocity.end(), Vec3::Zero());
+  std::fill(particles.angular_momentum.begin(), particles.angular_momentum.end(), Vec3::Zero());
+  std::fill(particles.angular_velocity.begin(), particles.angular_velocity.end(), Vec3::Zero());
+}
+
+void Simulation::reset_accounts()
+{
+  ContactLosses ignored;
+  for (ContactState &s : pairs.state)
+    ignored.take(s);
+  for (ContactState &s : wall_contacts.state)
+    ignored.take(s);
+  pairs.losses = wall_contacts.losses = {};
+  for (PlaneWall &wall : walls)
+    wall.work = 0.;
+  std::fill(h.external_work.begin(), h.external_work.end(), 0.);
+  h.start_potential = gravity_potential();
+}
+
+double Simulation::gravity_potential() const
+{
+  double sum = 0.;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    sum -= particles.weight[i] * particles.mass[i] * p.gravity.dot(particles.position[i]);
+  return sum;
+}
+
+GrainEnergy Simulation::energy() const
+{
+  GrainEnergy e;
+  const double dt = p.time_step;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    const double mass = particles.weight[i] * particles.mass[i];
+    const Vec3 &v = particles.velocity[i];
+    const Vec3 next = v + dt * ((particles.force[i] + particles.external_force[i]) / mass + p.gravity);
+    const Vec3 &momentum = particles.angular_momentum[i];
+    const Vec3 next_momentum = momentum + dt / particles.weight[i] * particles.torque[i];
+    e.kinetic += 0.5 * mass * v.dot(next) +
+                 0.5 * particles.weight[i] *
+                     momentum.dot(angular_velocity(particles.orientation[i], particles.inertia[i], next_momentum));
+    e.external_work +=
+        h.external_work[i] + 0.5 * dt * (h.last_external_force[i] + particles.external_force[i]).dot(v);
+  }
+  for (const auto &stored : {pairs.total_energy(), wall_contacts.total_energy()})
+  {
+    e.normal += stored.normal;
+    e.tangential += stored.tangential;
+  }
+  for (const auto &lost : {pairs.total_losses(), wall_contacts.total_losses()})
+  {
+    e.friction_loss += lost.friction;
+    e.viscous_loss += lost.viscous;
+  }
+  for (const PlaneWall &wall : walls)
+    e.wall_work += wall.work;
+  e.gravity_work = h.start_potential - gravity_potential();
+  return e;
+}
+
+double Simulation::stable_time_step() const
+{
+  return dem::stable_time_step(particles, pairs, pair_law, wall_contacts, wall_law, p.time_step);
+}
+
+void Simulation::check_finite() const
+{
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
+        !particles.angular_momentum[i].allFinite() || !particles.orientation[i].coeffs().allFinite())
+    {
+      std::ostringstream message;
+      message << "the run diverged: grain " << particles.id[i] << " at (" << particles.position[i].transpose()
+              << ") m is not finite at time " << time << " s, step " << n_steps
+              << "; choose a smaller time step (stable estimate in summary.json) or start from the last snapshot";
+      throw RunError(message.str());
+    }
+}
+
+} // namespace bergamo::dem
