@@ -21,6 +21,8 @@ if(BERGAMO_WITH_FE)
   add_library(bergamo_dealii INTERFACE)
   target_include_directories(bergamo_dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
   target_link_libraries(bergamo_dealii INTERFACE ${DEAL_II_TARGET_RELEASE})
+  # deal.II's headers call Trilinos' Teuchos, which Debian's target names only through the library itself.
+  target_link_options(bergamo_dealii INTERFACE -Wl,--copy-dt-needed-entries)
 endif()
 if(BERGAMO_TESTS)
   find_package(Catch2 2.13 REQUIRED)

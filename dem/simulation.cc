@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -71,17 +72,17 @@ Simulation::Simulation(const SimulationParameters &parameters, Particles new_par
   h.start_potential = gravity_potential();
 }
 
-void Simulation::set_friction(const double friction)
+void Simulation::change(const SimulationParameters &parameters)
 {
-  p.friction = friction;
-  p.validate();
-  pair_law.friction = friction;
-}
-
-void Simulation::set_time_step(const double time_step)
-{
-  p.time_step = time_step;
-  p.validate();
+  parameters.validate();
+  p.friction = parameters.friction;
+  p.wall_friction = parameters.wall_friction;
+  p.damping_ratio = parameters.damping_ratio;
+  p.time_step = parameters.time_step;
+  p.contact = parameters.contact;
+  pair_law.friction = p.friction;
+  wall_law.friction = p.wall_friction;
+  pair_law.damping_ratio = wall_law.damping_ratio = p.damping_ratio;
 }
 
 void Simulation::rebuild_neighbours()
@@ -129,6 +130,14 @@ void Simulation::remove_wall(const std::int32_t index)
   wall_contacts.remove_wall(index);
   walls.erase(walls.begin() + index);
   rebuild_neighbours();
+}
+
+void Simulation::refresh_contacts()
+{
+  for (ContactState &s : pairs.state)
+    s.motion = std::numeric_limits<double>::max();
+  for (ContactState &s : wall_contacts.state)
+    s.motion = std::numeric_limits<double>::max();
 }
 
 void Simulation::compute_forces()

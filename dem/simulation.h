@@ -50,10 +50,13 @@ public:
     integrate();
   }
 
-  void set_friction(double friction);  ///< between grains, from the next step on
-  void set_time_step(double time_step); ///< [s], from the next step on
+  /// Goes on with other parameters: friction, time step, contact search. Materials and Verlet distance stay.
+  void change(const SimulationParameters &parameters);
 
   void remove_wall(std::int32_t index);
+
+  /// Searches every contact anew at the next step, e.g. after the grains' weights have been changed.
+  void refresh_contacts();
 
   /// Stops all grains where they are.
   void rest();

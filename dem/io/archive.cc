@@ -56,9 +56,9 @@ std::string make_seal(const unsigned version, const std::uint64_t length, const 
 {
   std::array<char, seal_size> text;
   text.fill(' ');
-  const int end = std::snprintf(text.data(), text.size(), "bergamo archive\nformat %u\nlength %llu\nchecksum %016llx\n",
-                                version, static_cast<unsigned long long>(length),
-                                static_cast<unsigned long long>(checksum));
+  const int end =
+      std::snprintf(text.data(), text.size(), "bergamo archive\nformat %u\nlength %llu\nchecksum %016llx\n", version,
+                    static_cast<unsigned long long>(length), static_cast<unsigned long long>(checksum));
   text[end] = ' ';
   text.back() = '\n';
   return {text.data(), text.size()};
@@ -235,7 +235,10 @@ struct ArchiveReader::State
   std::filesystem::path path;
   std::optional<Handle> hdf5;
 
-  [[noreturn]] void fail(const std::string &thing) const { throw RunError("cannot read " + path.string() + ": " + thing); }
+  [[noreturn]] void fail(const std::string &thing) const
+  {
+    throw RunError("cannot read " + path.string() + ": " + thing);
+  }
   [[noreturn]] void fail_damaged() const { fail("the file is damaged; take an older copy or make it anew"); }
 
   /// Lets nothing pass to HDF5 but what an ArchiveWriter wrote, to the last bit.
@@ -255,8 +258,9 @@ struct ArchiveReader::State
     unsigned version = 0;
     unsigned long long length = 0, expected = 0;
     if (!seal.starts_with("bergamo archive\n"))
-      fail(seal.starts_with("\x89HDF\r\n\x1a\n") ? "an HDF5 file, but no archive of Bergamo; name an archive"
-                                                 : "no archive of Bergamo, or its beginning is damaged; name an archive");
+      fail(seal.starts_with("\x89HDF\r\n\x1a\n")
+               ? "an HDF5 file, but no archive of Bergamo; name an archive"
+               : "no archive of Bergamo, or its beginning is damaged; name an archive");
     if (std::sscanf(seal.c_str(), "bergamo archive\nformat %u\nlength %llu\nchecksum %llx", &version, &length,
                     &expected) != 3 ||
         seal != make_seal(version, length, expected))
@@ -401,7 +405,10 @@ std::vector<std::int64_t> ArchiveReader::read_integers(const std::string &name) 
   return state_->read_array<std::int64_t>(name);
 }
 
-double ArchiveReader::read_double(const std::string &name) const { return state_->read_scalar<double>(name); }
+double ArchiveReader::read_double(const std::string &name) const
+{
+  return state_->read_scalar<double>(name);
+}
 
 std::int64_t ArchiveReader::read_integer(const std::string &name) const
 {

@@ -15,8 +15,8 @@ void write_pvd(const std::filesystem::path &path, const std::span<const std::pai
   {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, time).ptr;
-    text += "    <DataSet timestep=\"" + std::string(digits, end) + "\" part=\"0\" file=\"" + xml_escaped(name) +
-            "\"/>\n";
+    text +=
+        "    <DataSet timestep=\"" + std::string(digits, end) + "\" part=\"0\" file=\"" + xml_escaped(name) + "\"/>\n";
   }
   text += "  </Collection>\n</VTKFile>\n";
 

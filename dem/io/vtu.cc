@@ -119,7 +119,9 @@ std::string attributes(const std::string &type, const std::string &name, const i
 template <class Value>
 Array cell_array(const std::string &attributes, const std::size_t bytes, const int n_faces, Value value)
 {
-  return {attributes, n_faces * bytes, [n_faces, value](const std::size_t grain, std::byte *out) {
+  return {attributes, n_faces * bytes,
+          [n_faces, value](const std::size_t grain, std::byte *out)
+          {
             for (int face = 0; face < n_faces; ++face)
               put(out, value(grain));
           }};
@@ -129,7 +131,9 @@ Array cell_array(const std::string &attributes, const std::size_t bytes, const i
 template <class Index>
 Array index_array(const std::string &attributes, const std::vector<int> &first, const std::size_t shift)
 {
-  return {attributes, first.size() * sizeof(Index), [&first, shift](const std::size_t grain, std::byte *out) {
+  return {attributes, first.size() * sizeof(Index),
+          [&first, shift](const std::size_t grain, std::byte *out)
+          {
             for (const int index : first)
               put(out, static_cast<Index>(grain * shift + index));
           }};
@@ -150,8 +154,8 @@ std::string section(const std::string &name, const std::span<const Array> arrays
   std::string text = "      <" + name + ">\n";
   for (const Array &array : arrays)
   {
-    text += "        <DataArray " + array.attributes + " format=\"appended\" offset=\"" + std::to_string(offset) +
-            "\"/>\n";
+    text +=
+        "        <DataArray " + array.attributes + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
     offset += sizeof(std::uint64_t) + n_grains * array.bytes_per_grain;
   }
   return text + "      </" + name + ">\n";
@@ -191,7 +195,8 @@ void write_grains_vtu(const Particles &particles, const std::span<const GrainFie
   const int n_faces = static_cast<int>(globe.face_end.size());
 
   const Array points{attributes("Float32", "Points", 3), n_points * 3 * sizeof(float),
-                     [&](const std::size_t grain, std::byte *out) {
+                     [&](const std::size_t grain, std::byte *out)
+                     {
                        thread_local std::vector<Vec3> body;
                        globe.points(particles.shape[grain], body);
                        const Mat3 turn = particles.orientation[grain].toRotationMatrix();
@@ -204,11 +209,13 @@ void write_grains_vtu(const Particles &particles, const std::span<const GrainFie
   const std::vector<Array> cells{index_array("connectivity", globe.connectivity, n_points, n_grains * n_points),
                                  index_array("offsets", globe.face_end, n_corners, n_grains * n_corners), types};
 
-  const auto vectors = [&](const std::string &name, const std::vector<Vec3> &values) {
+  const auto vectors = [&](const std::string &name, const std::vector<Vec3> &values)
+  {
     return cell_array(attributes("Float32", name, 3), 3 * sizeof(float), n_faces,
                       [&values](const std::size_t grain) -> const Vec3 & { return values[grain]; });
   };
-  const auto scalars = [&](const std::string &name, const std::span<const double> values) {
+  const auto scalars = [&](const std::string &name, const std::span<const double> values)
+  {
     return cell_array(attributes("Float32", name), sizeof(float), n_faces,
                       [values](const std::size_t grain) { return static_cast<float>(values[grain]); });
   };

@@ -29,8 +29,8 @@ inline Vec3 angular_velocity(const Quaternion &orientation, const Vec3 &inertia,
 }
 
 /// Mean angular velocity over one step with the angular momentum H held: four evaluations averaged as in the classical
-/// Runge-Kutta formula (Wellmann 3.40-3.44, after Munjiza et al. 2003). Turning by it keeps H exactly and the energy to
-/// fourth order.
+/// Runge-Kutta formula (Wellmann 3.40-3.44, after Munjiza et al. 2003), with the two commutators that rotations, which do
+/// not commute, need for fourth order (Munthe-Kaas 1999; without them it is of second). Turning by it keeps H exactly.
 /// @param orientation at the beginning of the step; @param inertia principal moments in the body frame [kg m^2]
 inline Vec3 mean_angular_velocity(const Quaternion &orientation, const Vec3 &inertia, const Vec3 &angular_momentum,
                                   const double time_step)
@@ -41,9 +41,9 @@ inline Vec3 mean_angular_velocity(const Quaternion &orientation, const Vec3 &ine
   const auto velocity_after = [&](const Vec3 &w, const double dt) -> Vec3
   { return angular_velocity(rotation(dt * w) * orientation, inertia, angular_momentum); };
   const Vec3 w2 = velocity_after(w1, 0.5 * time_step);
-  const Vec3 w3 = velocity_after(w2, 0.5 * time_step);
+  const Vec3 w3 = velocity_after(w2 - 0.25 * time_step * w1.cross(w2), 0.5 * time_step);
   const Vec3 w4 = velocity_after(w3, time_step);
-  return (w1 + 2. * w2 + 2. * w3 + w4) / 6.;
+  return (w1 + 2. * w2 + 2. * w3 + w4) / 6. - time_step / 12. * w1.cross(w4);
 }
 
 } // namespace bergamo::dem

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Checks that #include arrows only point down, and that no driver's main.cc grows too long.
+
+Prints one line for each violation, "file:line: what is wrong", and ends with status 1 if there is any.
+Usage: check_layers.py [SOURCE_FOLDER]
+"""
+
+import os
+import re
+import sys
+
+# Floors of dem/, from the ground up. A room may include itself and rooms on lower floors.
+DEM_FLOORS = {
+    "core": 1,
+    "shape": 2,
+    "state": 3, "contact": 3,
+    "law": 4, "neighbour": 4,
+    "force": 5, "periodic": 5,
+    "motion": 6, "measure": 6,
+    "simulation": 7,
+    "packing": 8,
+    "io": 9,
+}
+
+# Which houses a house may include.
+HOUSES = {
+    "dem": {"dem"},
+    "fe_dealii": {"fe_dealii"},
+    "coupling": {"dem", "coupling"},  # and fe_dealii, from coupling/adapter alone
+    "drivers": {"dem", "fe_dealii", "coupling", "drivers"},
+}
+
+MAX_MAIN_LINES = 150
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def room_of(path):
+    """The room of a file of dem/: its folder, or its own name for a file that lies in dem/ itself."""
+    parts = path.split("/")
+    return parts[1] if len(parts) > 2 else os.path.splitext(parts[1])[0]
+
+
+def included_path(root, path, quote, name):
+    """The included file from the project's root, or nothing for a file of another project."""
+    if name.split("/")[0] in HOUSES and (quote == '"' or os.path.exists(os.path.join(root, name))):
+        return name
+    beside = os.path.normpath(os.path.join(os.path.dirname(path), name))
+    return beside if quote == '"' and os.path.exists(os.path.join(root, beside)) else None
+
+
+def dem_violation(path, target):
+    room, target_room = room_of(path), room_of(target)
+    for name in (room, target_room):
+        if name not in DEM_FLOORS:
+            return f"dem/{name} has no floor in cmake/check_layers.py"
+    if room != target_room and DEM_FLOORS[target_room] >= DEM_FLOORS[room]:
+        return (f"dem/{room} (floor {DEM_FLOORS[room]}) must not include dem/{target_room} "
+                f"(floor {DEM_FLOORS[target_room]}): {target}")
+    return None
+
+
+def house_violation(path, target):
+    house, target_house = path.split("/")[0], target.split("/")[0]
+    if path.startswith("coupling/adapter/") and target_house == "fe_dealii":
+        return None
+    if target_house not in HOUSES[house]:
+        return f"{house}/ must not include {target_house}/: {target}"
+    if path.startswith("coupling/") and not path.startswith("coupling/adapter/") \
+            and target.startswith("coupling/adapter/"):
+        return f"only drivers may include coupling/adapter/: {target}"
+    if path.startswith("drivers/common/") and target_house == "drivers" and not target.startswith("drivers/common/"):
+        return f"drivers/common/ must not include a driver: {target}"
+    return dem_violation(path, target) if house == target_house == "dem" else None
+
+
+def library_violation(path, name):
+    """Of an include of another project's file."""
+    may_name_dealii = path.startswith(("fe_dealii/", "drivers/", "coupling/adapter/dealii_adapter"))
+    if name.startswith("deal.II/") and not may_name_dealii:
+        return f"deal.II belongs to fe_dealii/, coupling/adapter/dealii_adapter and drivers/: <{name}>"
+    if re.match(r"(hdf5|H5)\w*\.h", name) and not path.startswith("dem/io/"):
+        return f"HDF5 belongs to dem/io/: <{name}>"
+    return None
+
+
+def violations_of(root, path):
+    with open(os.path.join(root, path), encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    for number, line in enumerate(lines, 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        target = included_path(root, path, *match.groups())
+        wrong = house_violation(path, target) if target else library_violation(path, match.group(2))
+        if wrong:
+            yield f"{path}:{number}: {wrong}"
+    if re.fullmatch(r"drivers/[^/]+/main\.cc", path) and len(lines) > MAX_MAIN_LINES:
+        yield f"{path}:{len(lines)}: a driver's main.cc has at most {MAX_MAIN_LINES} lines"
+
+
+def sources(root):
+    for house in HOUSES:
+        for folder, _, files in os.walk(os.path.join(root, house)):
+            for file in files:
+                if file.endswith((".h", ".cc")):
+                    yield os.path.relpath(os.path.join(folder, file), root)
+
+
+def main():
+    here = os.path.dirname(os.path.abspath(__file__))
+    root = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(here)
+    paths = sorted(sources(root))
+    if not paths:
+        sys.exit(f"error: no sources in {root}")
+    violations = [violation for path in paths for violation in violations_of(root, path)]
+    print("\n".join(violations) if violations else f"layers: {len(paths)} files, all arrows point down")
+    sys.exit(1 if violations else 0)
+
+
+if __name__ == "__main__":
+    main()

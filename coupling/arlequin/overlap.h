@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <vector>
+
+namespace bergamo::coupling
+{
+
+/// The region where grains and elements share the space, in the reference configuration (Wellmann, 6.1 and 6.3).
+/// A coupling node is a node of an element of the overlap; within this room nodes are known by their place in
+/// `nodes`. A coupled particle is one whose centre lies in an element of the overlap.
+struct Overlap
+{
+  std::vector<int> nodes;                     ///< number of each coupling node in the FE mesh, each once
+  std::vector<Eigen::Vector3d> node_position; ///< reference position [m]
+
+  std::vector<std::int64_t> particle_id;           ///< identity of each coupled particle
+  std::vector<double> particle_volume;             ///< V_alpha [m^3]
+  std::vector<Eigen::Vector3d> reference_position; ///< centre of each coupled particle [m]
+
+  /// Values N_I(x_alpha) of the shape functions at the centres, particle by particle: those of particle alpha stand at
+  /// [shape_offset[alpha], shape_offset[alpha + 1]), 8 for a trilinear hexahedron.
+  std::vector<std::size_t> shape_offset{0};
+  std::vector<int> shape_node; ///< place of the node in `nodes`
+  std::vector<double> shape_value;
+
+  /// V_IJ = integral of N_I N_J over the elements of the overlap [m^3], symmetric.
+  Eigen::SparseMatrix<double, Eigen::RowMajor> volume_matrix;
+
+  std::size_t n_nodes() const { return nodes.size(); }
+  std::size_t n_particles() const { return particle_id.size(); }
+
+  /// Throws std::invalid_argument, naming the particle or the position of the node and the remedy, unless sizes fit,
+  /// every particle's shape values lie in [0, 1] (linear elements), sum to 1 and give back its position, every node is
+  /// reached by a particle, and the volume matrix is symmetric with positive row sums.
+  void validate() const;
+};
+
+} // namespace bergamo::coupling

@@ -1,0 +1,179 @@
+#include "coupling/arlequin/penalty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace bergamo::coupling
+{
+
+namespace
+{
+
+constexpr int max_iterations = 20000;
+
+template <class... Parts>
+[[noreturn]] void fail(const Parts &...parts)
+{
+  std::ostringstream message;
+  message << "penalty coupling: ";
+  (message << ... << parts);
+  throw std::invalid_argument(message.str());
+}
+
+/// Numbers in [-1, 1] that look random and are always the same (splitmix64).
+double scattered(std::uint64_t i)
+{
+  i = (i + 1) * 0x9e3779b97f4a7c15u;
+  i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9u;
+  i = (i ^ (i >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<double>((i ^ (i >> 31)) >> 11) * 0x1p-52 - 1.;
+}
+
+} // namespace
+
+PenaltyCoupling::PenaltyCoupling(Overlap overlap, const Projection kind, const double penalty)
+    : overlap_(std::move(overlap)), projection_(overlap_, kind), penalty_(penalty),
+      largest_node_(*std::max_element(overlap_.nodes.begin(), overlap_.nodes.end())),
+      particle_work_(overlap_.n_particles()), node_work_(overlap_.n_nodes()),
+      difference_(overlap_.n_nodes(), Eigen::Vector3d::Zero())
+{
+  if (!(penalty > 0.) || !std::isfinite(penalty))
+    fail("the penalty is ", penalty, " Pa/m^2; it must be positive, e.g. ten times the continuum's modulus over the ",
+         "product of grain size and element size");
+  overlap_.volume_matrix.makeCompressed();
+}
+
+PenaltyState PenaltyCoupling::compute(const std::span<const Eigen::Vector3d> particle_displacement,
+                                      const std::span<const double> fe_displacement,
+                                      const std::span<Eigen::Vector3d> particle_force, const std::span<double> fe_force)
+{
+  const std::size_t n_particles = overlap_.n_particles(), n_nodes = overlap_.n_nodes();
+  if (particle_displacement.size() != n_particles || particle_force.size() != n_particles)
+    fail(particle_displacement.size(), " displacements and ", particle_force.size(), " forces for ", n_particles,
+         " coupled particles");
+  if (fe_displacement.size() < 3 * (static_cast<std::size_t>(largest_node_) + 1) ||
+      fe_force.size() != fe_displacement.size())
+    fail(fe_displacement.size(), " displacements and ", fe_force.size(),
+         " forces of the elements; one size is needed, for nodes up to number ", largest_node_);
+
+  // Difference of the models at the particles, then its coarse part.
+  for (std::size_t i = 0; i < n_nodes; ++i)
+    node_work_[i] = Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * overlap_.nodes[i]]);
+  projection_.interpolate(node_work_, particle_work_);
+  for (std::size_t particle = 0; particle < n_particles; ++particle)
+    particle_work_[particle] = particle_displacement[particle] - particle_work_[particle];
+  projection_.project(particle_work_, difference_);
+
+  // Nodal forces f = epsilon V r.
+  const auto &matrix = overlap_.volume_matrix;
+  const int *row_start = matrix.outerIndexPtr(), *column = matrix.innerIndexPtr();
+  const double *value = matrix.valuePtr();
+#pragma omp parallel for schedule(static) if (n_nodes >= 256)
+  for (std::size_t i = 0; i < n_nodes; ++i)
+  {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int k = row_start[i]; k < row_start[i + 1]; ++k)
+      sum += value[k] * difference_[column[k]];
+    node_work_[i] = penalty_ * sum;
+  }
+  PenaltyState state;
+  for (std::size_t i = 0; i < n_nodes; ++i)
+  {
+    state.energy += 0.5 * difference_[i].dot(node_work_[i]);
+    state.largest_difference = std::max(state.largest_difference, difference_[i].norm());
+  }
+
+  // Equal and opposite forces on both models at the particles.
+  projection_.transpose_project(node_work_, particle_work_);
+  for (std::size_t particle = 0; particle < n_particles; ++particle)
+    particle_force[particle] = -particle_work_[particle];
+  projection_.collect(particle_work_, node_work_);
+  for (std::size_t i = 0; i < n_nodes; ++i)
+    Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * overlap_.nodes[i]) += node_work_[i];
+  return state;
+}
+
+double PenaltyCoupling::largest_eigenvalue(const CoupledMasses &masses, const double tolerance)
+{
+  const std::size_t n_particles = overlap_.n_particles(), n_nodes = overlap_.n_nodes();
+  if (masses.particle.size() != n_particles)
+    fail(masses.particle.size(), " masses for ", n_particles, " coupled particles");
+  if (masses.fe.size() < 3 * (static_cast<std::size_t>(largest_node_) + 1) ||
+      (!masses.fixed.empty() && masses.fixed.size() != masses.fe.size()))
+    fail(masses.fe.size(), " masses and ", masses.fixed.size(),
+         " marks of prescribed motion for the elements; give one a degree of freedom, for nodes up to number ",
+         largest_node_);
+
+  // Symmetric form M^-1/2 K M^-1/2 x, x = particles and then coupling nodes.
+  const std::size_t n = n_particles + n_nodes;
+  std::vector<Eigen::Vector3d> inverse_root(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c)
+    {
+      const std::size_t dof = i < n_particles ? 0 : 3 * overlap_.nodes[i - n_particles] + c;
+      const double mass = i < n_particles ? masses.particle[i] : masses.fe[dof];
+      const bool fixed = i >= n_particles && !masses.fixed.empty() && masses.fixed[dof] != 0;
+      if (!fixed && !(mass > 0.))
+        fail("the mass of ",
+             i < n_particles ? "particle " + std::to_string(overlap_.particle_id[i])
+                             : "node " + std::to_string(overlap_.nodes[i - n_particles]),
+             " is ", mass, " kg; weighted masses must be positive");
+      inverse_root[i][c] = fixed ? 0. : 1. / std::sqrt(mass);
+    }
+
+  std::vector<Eigen::Vector3d> x(n), y(n), particle_displacement(n_particles), particle_force(n_particles);
+  std::vector<double> fe_displacement(masses.fe.size(), 0.), fe_force(masses.fe.size());
+  for (std::size_t i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c)
+      x[i][c] = inverse_root[i][c] == 0. ? 0. : scattered(3 * i + c);
+
+  double eigenvalue = 0., residual = 0.;
+  for (int iteration = 0; iteration < max_iterations; ++iteration)
+  {
+    double norm = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+      norm += x[i].squaredNorm();
+    norm = std::sqrt(norm);
+    if (norm == 0.)
+      return 0.;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      x[i] /= norm;
+      const Eigen::Vector3d displacement = inverse_root[i].cwiseProduct(x[i]);
+      if (i < n_particles)
+        particle_displacement[i] = displacement;
+      else
+        std::copy_n(displacement.data(), 3, &fe_displacement[3 * overlap_.nodes[i - n_particles]]);
+    }
+    std::fill(fe_force.begin(), fe_force.end(), 0.);
+    compute(particle_displacement, fe_displacement, particle_force, fe_force);
+
+    eigenvalue = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const double *const force =
+          i < n_particles ? particle_force[i].data() : &fe_force[3 * overlap_.nodes[i - n_particles]];
+      y[i] = -inverse_root[i].cwiseProduct(Eigen::Map<const Eigen::Vector3d>(force));
+      eigenvalue += x[i].dot(y[i]);
+    }
+    residual = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+      residual += (y[i] - eigenvalue * x[i]).squaredNorm();
+    residual = std::sqrt(residual);
+    if (residual <= tolerance * eigenvalue)
+      break;
+    x.swap(y);
+  }
+  return eigenvalue + residual;
+}
+
+double PenaltyCoupling::stable_time_step(const CoupledMasses &masses)
+{
+  const double eigenvalue = largest_eigenvalue(masses);
+  return eigenvalue > 0. ? 2. / std::sqrt(eigenvalue) : std::numeric_limits<double>::infinity();
+}
+
+} // namespace bergamo::coupling

@@ -1,0 +1,83 @@
+#include "drivers/common/driver_main.h"
+
+#include "drivers/common/interrupt.h"
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+#include <omp.h>
+
+#include <iostream>
+#include <new>
+#include <stdexcept>
+
+namespace bergamo::driver
+{
+
+namespace
+{
+
+int report(const std::string &message, const int status)
+{
+  std::cout.flush();
+  std::cerr << "error: " << message << std::endl;
+  return status;
+}
+
+/// The job's status, or the one of the exception that ended it.
+int guarded(const std::function<int()> &job)
+{
+  try
+  {
+    const int status = job();
+    if (!std::cout.flush())
+      return report("cannot write to standard output", run_failed);
+    return status;
+  }
+  catch (const std::invalid_argument &error)
+  {
+    return report(error.what(), user_mistake);
+  }
+  catch (const std::bad_alloc &)
+  {
+    return report("out of memory; use fewer particles or a coarser mesh", run_failed);
+  }
+  catch (const std::exception &error)
+  {
+    return report(error.what(), run_failed);
+  }
+}
+
+} // namespace
+
+int run_driver(int argc, char **argv, const DriverDescription &description,
+               const std::function<int(const CommandLine &)> &job)
+{
+  return guarded(
+      [&]
+      {
+        const auto command_line = parse_command_line(argc, argv, description);
+        if (!command_line)
+          return static_cast<int>(done);
+        dealii::deal_II_exceptions::disable_abort_on_exception();
+        const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+        if (command_line->threads)
+          omp_set_num_threads(*command_line->threads);
+        install_interrupt_handler();
+        return guarded([&] { return job(*command_line); }); // inside, so that MPI ends after the message
+      });
+}
+
+bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)
+{
+  if (command_line.print_parameters)
+  {
+    std::cout << parameters.default_text();
+    return false;
+  }
+  parameters.read(command_line.parameter_file);
+  for (const std::string &setting : command_line.settings)
+    parameters.set(setting);
+  return true;
+}
+
+} // namespace bergamo::driver

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "drivers/common/command_line.h"
+#include "drivers/common/parameter_file.h"
+
+#include <functional>
+
+namespace bergamo::driver
+{
+
+/// What a driver's program returns to the shell.
+enum ExitStatus : int
+{
+  done = 0,
+  run_failed = 1,
+  user_mistake = 2,
+  stopped_by_user = 130
+};
+
+/// The frame of every driver's main(): reads the command line, sets the number of OpenMP threads, starts MPI and
+/// deal.II (one thread of its own), catches Ctrl-C, runs the job, and turns exceptions into one message "error: …" on
+/// standard error: std::invalid_argument (ConfigError among them) gives user_mistake, any other exception run_failed.
+/// Otherwise returns what the job returns.
+int run_driver(int argc, char **argv, const DriverDescription &description,
+               const std::function<int(const CommandLine &)> &job);
+
+/// Reads the parameter file and then the --set options of the command line. Returns false when only the defaults were
+/// asked for; they are then on standard output. Throws ConfigError for the user's mistakes.
+bool read_parameters(ParameterFile &parameters, const CommandLine &command_line);
+
+} // namespace bergamo::driver

@@ -1,0 +1,59 @@
+#include "drivers/common/interrupt.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <string_view>
+
+namespace bergamo::driver
+{
+
+namespace
+{
+
+volatile std::sig_atomic_t received_signal = 0;
+
+extern "C" void on_signal(const int signal_number) // only calls that are safe in a signal handler
+{
+  if (received_signal != 0)
+  {
+    std::signal(signal_number, SIG_DFL);
+    std::raise(signal_number);
+    return;
+  }
+  received_signal = signal_number;
+  const int saved_errno = errno;
+  constexpr std::string_view message = "\nstopping after this step; Ctrl-C again ends the program at once\n";
+  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, message.data(), message.size());
+  errno = saved_errno;
+}
+
+} // namespace
+
+void install_interrupt_handler()
+{
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted()
+{
+  return received_signal != 0;
+}
+
+int interrupt_signal()
+{
+  return received_signal;
+}
+
+void clear_interrupt()
+{
+  received_signal = 0;
+}
+
+} // namespace bergamo::driver

@@ -1,0 +1,152 @@
+#include "drivers/common/run_folder.h"
+
+#include "dem/core/error.h"
+#include "drivers/common/atomic_file.h"
+#include "drivers/common/command_line.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <vector>
+
+namespace bergamo::driver
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using dem::ConfigError;
+using dem::RunError;
+
+const char *const previous_run = "previous_run";
+
+bool is_part(const std::string &name)
+{
+  return name.ends_with(".part");
+}
+
+/// Whether a run writes a file or folder of this name.
+bool is_of_a_run(const std::string &name)
+{
+  const bool is_vtu = name.ends_with(".vtu") && (name.starts_with("grains_") || name.starts_with("continuum_"));
+  return name == "parameters.prm" || name == "history.csv" || name == "summary.json" || name == "snapshot.h5" ||
+         name == "plots" || name.ends_with(".pvd") || is_vtu;
+}
+
+/// The folder itself, or the nearest one above it that exists.
+fs::path nearest_existing(fs::path path)
+{
+  path = fs::absolute(path);
+  std::error_code ignored;
+  while (!fs::exists(path, ignored) && path.has_relative_path())
+    path = path.parent_path();
+  return path;
+}
+
+void check_writable(const fs::path &folder)
+{
+  const fs::path existing = nearest_existing(folder);
+  std::error_code ignored;
+  if (!fs::is_directory(existing, ignored))
+    throw ConfigError("output folder '" + folder.string() + "' cannot be made: '" + existing.string() +
+                      "' is a file; choose another folder with --output");
+  // Only trying tells: access() says yes to root on file systems where nothing can be made.
+  std::string probe = (existing / ".writable_XXXXXX").string();
+  if (::mkdtemp(probe.data()) == nullptr || ::rmdir(probe.c_str()) != 0)
+    throw ConfigError(
+        file_error(existing == fs::absolute(folder) ? "write to output folder" : "make output folder", folder, errno));
+}
+
+std::vector<fs::path> content(const fs::path &folder)
+{
+  std::vector<fs::path> paths;
+  try
+  {
+    for (const auto &entry : fs::directory_iterator(folder))
+      paths.push_back(entry.path());
+  }
+  catch (const fs::filesystem_error &error)
+  {
+    throw RunError(file_error("read folder", folder, error.code().value()));
+  }
+  return paths;
+}
+
+void move_aside(const fs::path &folder)
+{
+  std::vector<fs::path> old_files;
+  for (const fs::path &path : content(folder))
+    if (is_of_a_run(path.filename().string()))
+      old_files.push_back(path);
+  if (old_files.empty())
+    return;
+  fs::remove_all(folder / previous_run);
+  fs::create_directory(folder / previous_run);
+  for (const fs::path &path : old_files)
+    fs::rename(path, folder / previous_run / path.filename());
+}
+
+void remove_parts(const fs::path &folder)
+{
+  for (const fs::path &path : content(folder))
+    if (is_part(path.filename().string()))
+      fs::remove(path);
+}
+
+FolderMode mode_of(const CommandLine &command_line)
+{
+  if (command_line.restart)
+    return FolderMode::restart;
+  return command_line.force ? FolderMode::force : FolderMode::fresh;
+}
+
+} // namespace
+
+RunFolder::RunFolder(fs::path path, const FolderMode mode) : folder(std::move(path)), mode(mode)
+{
+  check_writable(folder);
+  std::error_code ignored;
+  const bool exists = fs::exists(folder, ignored);
+  if (mode == FolderMode::fresh && exists && !content(folder).empty())
+    throw ConfigError("output folder '" + folder.string() +
+                      "' is not empty; choose another one with --output, go on with the run in it with --restart, or "
+                      "begin anew with --force (the run in it then moves to its sub-folder previous_run)");
+  if (mode == FolderMode::restart && !fs::exists(folder / "snapshot.h5", ignored))
+    throw ConfigError("--restart finds no snapshot.h5 in '" + folder.string() +
+                      "'; check --output, or begin a new run without --restart");
+}
+
+RunFolder::RunFolder(const CommandLine &command_line) : RunFolder(command_line.output, mode_of(command_line)) {}
+
+RunFolder::~RunFolder()
+{
+  if (lock >= 0)
+    ::close(lock);
+}
+
+void RunFolder::open()
+{
+  try
+  {
+    fs::create_directories(folder);
+    lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock < 0)
+      throw RunError(file_error("open folder", folder, errno));
+    if (::flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      throw ConfigError("another run is writing to '" + folder.string() +
+                        "'; wait for its end, or choose another folder with --output");
+    if (mode == FolderMode::force)
+      move_aside(folder);
+    remove_parts(folder);
+  }
+  catch (const fs::filesystem_error &error)
+  {
+    throw RunError(file_error("prepare output folder", folder, error.code().value()));
+  }
+}
+
+} // namespace bergamo::driver

@@ -1,0 +1,59 @@
+#include "drivers/two_scale_triaxial/packing_stage.h"
+
+#include "dem/packing/random_addition.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bergamo::driver
+{
+
+PackingStage begin_packing(const TriaxialParameters &parameters)
+{
+  std::mt19937_64 generator(parameters.seed);
+  const double layer = parameters.element_size();
+  const dem::Vec3 edges(parameters.edge, parameters.edge, parameters.grain_layers() * layer);
+  const std::vector<dem::Superquadric> shapes = dem::draw_grains(
+      parameters.distribution, parameters.expected_solid_fraction * edges.prod(), generator);
+
+  const double widening = std::cbrt(parameters.expected_solid_fraction / parameters.initial_solid_fraction);
+  const dem::Box box{dem::Vec3::Zero(), std::max(widening, 1.) * edges};
+  dem::Particles particles = dem::add_at_random(shapes, box, parameters.simulation.grain.density, generator);
+  return {std::make_unique<dem::Simulation>(parameters.packing_simulation(), std::move(particles), dem::box_walls(box)),
+          dem::Compression(parameters.compression)};
+}
+
+PackingFigures packing_figures(const dem::Simulation &grains)
+{
+  PackingFigures figures;
+  figures.box = dem::box_between(grains.walls);
+  double solid = 0.;
+  for (const dem::Superquadric &shape : grains.particles.shape)
+    solid += dem::volume(shape);
+  figures.solid_fraction = solid / figures.box.volume();
+  figures.coordination_number = coordination_number(grains);
+  return figures;
+}
+
+double coordination_number(const dem::Simulation &grains)
+{
+  const auto n_touching = std::count_if(grains.pairs.state.begin(), grains.pairs.state.end(),
+                                        [](const dem::ContactState &s) { return s.touching != 0.; });
+  return 2. * n_touching / grains.particles.size();
+}
+
+double max_overlap_over_radius(const dem::Simulation &grains)
+{
+  double largest = 0.;
+  const auto &radius = grains.particles.bounding_radius;
+  for (std::size_t k = 0; k < grains.pairs.list.size(); ++k)
+    if (grains.pairs.state[k].touching != 0.)
+      largest = std::max(largest, grains.pairs.state[k].overlap /
+                                      std::min(radius[grains.pairs.list.first[k]], radius[grains.pairs.list.second[k]]));
+  for (std::size_t k = 0; k < grains.wall_contacts.size(); ++k)
+    if (grains.wall_contacts.state[k].touching != 0.)
+      largest = std::max(largest, grains.wall_contacts.state[k].overlap / radius[grains.wall_contacts.particle[k]]);
+  return largest;
+}
+
+} // namespace bergamo::driver

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "coupling/adapter/two_scale_model.h"
+#include "dem/packing/compression.h"
+#include "dem/packing/distribution.h"
+#include "dem/simulation.h"
+#include "drivers/common/parameter_file.h"
+#include "drivers/two_scale_triaxial/strain_program.h"
+#include "fe_dealii/material/mohr_coulomb.h"
+
+#include <cstdint>
+
+namespace bergamo::driver
+{
+
+enum class ModelKind
+{
+  two_scale,
+  grains,
+  continuum
+};
+
+/// Everything that steers the two-scale triaxial test. SI units; angles in degrees.
+struct TriaxialParameters
+{
+  TriaxialParameters();
+
+  ModelKind kind = ModelKind::two_scale;
+  double edge = 0.01; ///< of the cube [m]
+  unsigned int elements_per_edge = 5;
+  unsigned int continuum_layers = 3; ///< of elements, from the bottom
+  unsigned int overlap_layers = 1;   ///< of these, shared with the grains
+
+  dem::GrainDistribution distribution;
+  dem::SimulationParameters simulation; ///< of the loading
+
+  double initial_solid_fraction = 0.2;   ///< of the random addition
+  double expected_solid_fraction = 0.67; ///< sets the number of grains
+  double packing_friction = 0.15;
+  double packing_time_step = 5e-7;       ///< [s]
+  double packing_motion_budget = 1e-3;
+  std::uint64_t seed = 1;
+  dem::CompressionParameters compression;
+
+  fe::MohrCoulombParameters continuum;
+  double continuum_damping = 200.; ///< mass-proportional [1/s]
+
+  coupling::CouplingParameters coupling;
+  StrainProgram program;
+
+  unsigned int n_samples = 200;
+  unsigned int n_pictures = 5;
+  double snapshot_interval = 30.; ///< wall clock [s]
+
+  /// Binds every parameter to its name in the parameter file.
+  void declare(ParameterFile &file);
+
+  /// Throws ConfigError (or fe::ParameterError) for values that do not go together, before any work.
+  void validate() const;
+
+  /// The grains' parameters while they are packed.
+  dem::SimulationParameters packing_simulation() const;
+
+  bool has_grains() const { return kind != ModelKind::continuum; }
+  bool has_continuum() const { return kind != ModelKind::grains; }
+  double element_size() const { return edge / elements_per_edge; } ///< nominal [m]
+
+  /// Layers of elements that the grains' height amounts to.
+  unsigned int grain_layers() const
+  {
+    return kind == ModelKind::grains ? elements_per_edge : elements_per_edge - continuum_layers + overlap_layers;
+  }
+};
+
+} // namespace bergamo::driver

@@ -1,0 +1,162 @@
+#pragma once
+
+#include "fe_dealii/material/mohr_coulomb.h"
+
+/// Trilinear hexahedron with 2×2×2 points and a mean dilatation (B-bar: Hughes, Generalization of selective
+/// integration procedures, Int. J. Numer. Meth. Eng. 15 (1980) 1413–1418), small strain, all geometry taken once in
+/// the reference configuration. Nodes and points are in deal.II's lexicographic order, x fastest. The eight points of
+/// an element are the eight lanes of one SIMD register, so no loop over points appears.
+namespace bergamo::fe::hexahedron
+{
+
+inline constexpr int n_nodes = 8;
+inline constexpr int n_points = 8;
+inline constexpr int n_dofs = 24; ///< 3*node + component
+
+/// One double per point. Vector extension of GCC and Clang; compiles to what the processor has.
+using Points [[gnu::vector_size(64)]] = double;
+
+/// What an element is in the reference configuration.
+struct Geometry
+{
+  Points gradient[3][n_nodes]; ///< ∂N_node/∂x_component [1/m]
+  Points volume;               ///< weight times Jacobian determinant [m³]
+  Points share_volume;         ///< volume times the continuum's share there [m³]
+  Points volume_fraction;      ///< volume over the element's volume [-]
+};
+
+/// What an element remembers.
+struct History
+{
+  Points stress[6];         ///< xx yy zz xy yz zx [Pa]
+  Points plastic_strain;    ///< accumulated equivalent_strain() of the plastic increments [-]
+  Points dissipated_energy; ///< accumulated plastic dissipation, share included [J]
+};
+
+inline double sum(const Points &x)
+{
+  return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
+}
+
+/// N_node at a point, trilinear, 2×2×2 Gauss: one factor (1 ± 1/√3)/2 per axis.
+inline double shape_value(const int node, const int point)
+{
+  constexpr double near = 0.78867513459481288225, far = 0.21132486540518711775;
+  double value = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    value *= ((node >> axis) & 1) == ((point >> axis) & 1) ? near : far;
+  return value;
+}
+
+/// Strain of nodal displacements u[24] [m] (or of their increments) at all points, shears as engineering strain, the
+/// dilatation replaced by its mean over the element.
+inline void strain(const Geometry &geometry, const double *u, Points (&result)[6])
+{
+  Points xx{}, yy{}, zz{}, xy{}, yz{}, zx{};
+  for (int node = 0; node < n_nodes; ++node)
+  {
+    const Points &dx = geometry.gradient[0][node], &dy = geometry.gradient[1][node], &dz = geometry.gradient[2][node];
+    const double ux = u[3 * node], uy = u[3 * node + 1], uz = u[3 * node + 2];
+    xx += ux * dx;
+    yy += uy * dy;
+    zz += uz * dz;
+    xy += ux * dy + uy * dx;
+    yz += uy * dz + uz * dy;
+    zx += uz * dx + ux * dz;
+  }
+  const Points dilatation = xx + yy + zz;
+  const Points correction = (sum(geometry.volume_fraction * dilatation) - dilatation) / 3.;
+  result[0] = xx + correction;
+  result[1] = yy + correction;
+  result[2] = zz + correction;
+  result[3] = xy;
+  result[4] = yz;
+  result[5] = zx;
+}
+
+/// Nodal forces [N] work-conjugate to strain(): force · u = Σ share_volume stress : strain(u).
+inline void internal_force(const Geometry &geometry, const Points (&stress)[6], double *force)
+{
+  // Only the mean stress of the whole element works on the mean dilatation.
+  const Points mean = geometry.share_volume * (stress[0] + stress[1] + stress[2]) / 3.;
+  const Points shift = sum(mean) * geometry.volume_fraction - mean;
+  const Points xx = geometry.share_volume * stress[0] + shift;
+  const Points yy = geometry.share_volume * stress[1] + shift;
+  const Points zz = geometry.share_volume * stress[2] + shift;
+  const Points xy = geometry.share_volume * stress[3];
+  const Points yz = geometry.share_volume * stress[4];
+  const Points zx = geometry.share_volume * stress[5];
+  for (int node = 0; node < n_nodes; ++node)
+  {
+    const Points &dx = geometry.gradient[0][node], &dy = geometry.gradient[1][node], &dz = geometry.gradient[2][node];
+    force[3 * node] = sum(xx * dx + xy * dy + zx * dz);
+    force[3 * node + 1] = sum(xy * dx + yy * dy + yz * dz);
+    force[3 * node + 2] = sum(zx * dx + yz * dy + zz * dz);
+  }
+}
+
+/// Elastic stress of a strain at all points.
+inline void elastic_stress(const MohrCoulomb &material, const Points (&strain)[6], Points (&stress)[6])
+{
+  const Points volumetric = material.lame_modulus() * (strain[0] + strain[1] + strain[2]);
+  for (int i = 0; i < 3; ++i)
+    stress[i] = 2 * material.shear_modulus() * strain[i] + volumetric;
+  for (int i = 3; i < 6; ++i)
+    stress[i] = material.shear_modulus() * strain[i];
+}
+
+/// Carries the stresses over a strain increment. `sector` has one entry per point.
+inline void update_stress(const MohrCoulomb &material, const Geometry &geometry, const Points (&strain_increment)[6],
+                          History &history, Sector *sector)
+{
+  Points trial[6];
+  elastic_stress(material, strain_increment, trial);
+  for (int i = 0; i < 6; ++i)
+    trial[i] += history.stress[i];
+  const Points mean = (trial[0] + trial[1] + trial[2]) / 3.;
+  const Points x = trial[0] - mean, y = trial[1] - mean, z = trial[2] - mean;
+  const Points j2 = (x * x + y * y + z * z) * 0.5 + trial[3] * trial[3] + trial[4] * trial[4] + trial[5] * trial[5];
+  const auto elastic = material.is_surely_elastic(mean, j2);
+  for (int point = 0; point < n_points; ++point)
+    sector[point] = Sector::elastic;
+  if (lanes::any(elastic == 0))
+  {
+    const PrincipalFrame<Points> frames = principal_frame<Points>(trial);
+    for (int point = 0; point < n_points; ++point)
+    {
+      if (elastic[point])
+        continue;
+      Stress stress_old, stress_trial;
+      for (int i = 0; i < 6; ++i)
+      {
+        stress_old[i] = history.stress[i][point];
+        stress_trial[i] = trial[i][point];
+      }
+      PrincipalFrame<double> frame;
+      for (int k = 0; k < 3; ++k)
+      {
+        frame.value[k] = frames.value[k][point];
+        for (int i = 0; i < 3; ++i)
+          frame.direction[k][i] = frames.direction[k][i][point];
+      }
+      const StressUpdate update = material.return_to_surface(stress_old, stress_trial, frame);
+      sector[point] = update.sector;
+      if (update.sector == Sector::elastic)
+        continue;
+      for (int i = 0; i < 6; ++i)
+        trial[i][point] = update.stress[i];
+      history.plastic_strain[point] += equivalent_strain(update.plastic_strain);
+      history.dissipated_energy[point] += geometry.share_volume[point] * update.plastic_dissipation;
+    }
+  }
+  for (int i = 0; i < 6; ++i)
+    history.stress[i] = trial[i];
+}
+
+/// Elastic stiffness [N/m], row-major 24×24, share included.
+void elastic_stiffness(const MohrCoulomb &material, const Geometry &geometry, double *stiffness);
+
+/// Lumped mass per node [kg]: ∫ N_node ρ share dV.
+void lumped_mass(double density, const Geometry &geometry, double (&mass)[n_nodes]);
+
+} // namespace bergamo::fe::hexahedron

@@ -1,0 +1,472 @@
+#include "fe_dealii/explicit_body.h"
+
+#include "fe_dealii/element/reference_geometry.h"
+#include "fe_dealii/error.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+namespace bergamo::fe
+{
+namespace
+{
+
+// Sums over dofs are taken in blocks of this many nodes, then over the blocks in order: the same on any thread count.
+constexpr std::size_t block_nodes = 512;
+// Below this, waking the threads costs more than they save.
+constexpr std::size_t few_elements = 256;
+
+template <class... Parts>
+[[noreturn]] void reject(const Parts &...parts)
+{
+  std::ostringstream message;
+  (message << ... << parts);
+  throw ParameterError(message.str());
+}
+
+template <class Block>
+std::span<double> doubles_of(std::vector<Block> &blocks)
+{
+  static_assert(sizeof(Block) % sizeof(double) == 0);
+  return {reinterpret_cast<double *>(blocks.data()), blocks.size() * sizeof(Block) / sizeof(double)};
+}
+
+std::span<double> doubles_of(dealii::Vector<double> &vector)
+{
+  return {vector.begin(), vector.size()};
+}
+
+} // namespace
+
+void ExplicitBodyParameters::validate() const
+{
+  material.validate();
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(gravity[i]))
+      reject("continuum: gravity component ", i, " = ", gravity[i], " m/s^2 is not finite; give a number");
+  if (!(damping >= 0) || !std::isfinite(damping))
+    reject("continuum: damping = ", damping, " 1/s is not allowed; give zero or a positive number");
+  const double friction = material.friction_angle * std::numbers::pi / 180;
+  const double tension_limit = friction > 0 ? material.cohesion / std::tan(friction) : HUGE_VAL;
+  if (!(initial_pressure >= -tension_limit) || !std::isfinite(initial_pressure))
+    reject("continuum: initial_pressure = ", initial_pressure, " Pa is not allowed; the material bears no less than ",
+           -tension_limit, " Pa (-c cot phi)");
+}
+
+struct ExplicitBody::Mesh
+{
+  Mesh() : element(dealii::FE_Q<3>(1), 3), dof_handler(triangulation) {}
+
+  dealii::Triangulation<3> triangulation;
+  dealii::FESystem<3> element;
+  dealii::DoFHandler<3> dof_handler;
+};
+
+ExplicitBody::ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const ExplicitBodyParameters &parameters)
+    : mesh_(std::make_unique<Mesh>()), parameters_((parameters.validate(), parameters)), material_(parameters.material)
+{
+  if (mesh.n_active_cells() == 0)
+    reject("continuum: the mesh has no cells; fill the triangulation first");
+  if (!mesh.all_reference_cells_are_hyper_cube())
+    reject("continuum: the mesh has cells that are no hexahedra; only hexahedra are supported");
+  if (mesh.has_hanging_nodes())
+    reject("continuum: the mesh has hanging nodes; refine it uniformly");
+  mesh_->triangulation.copy_triangulation(mesh);
+  mesh_->dof_handler.distribute_dofs(mesh_->element);
+
+  const std::size_t n_dofs = mesh_->dof_handler.n_dofs();
+  node_position_.resize(n_dofs / 3);
+  element_nodes_.reserve(mesh.n_active_cells());
+  for (const auto &cell : mesh_->dof_handler.active_cell_iterators())
+  {
+    auto &nodes = element_nodes_.emplace_back();
+    for (unsigned int v = 0; v < hexahedron::n_nodes; ++v)
+    {
+      const auto first = cell->vertex_dof_index(v, 0);
+      // The rest of the program relies on dof = 3 node + component.
+      if (first % 3 != 0 || cell->vertex_dof_index(v, 1) != first + 1 || cell->vertex_dof_index(v, 2) != first + 2)
+        throw AnalysisError("continuum: this version of deal.II numbers the displacement components of a vertex apart; "
+                            "use 9.4, or renumber in ExplicitBody");
+      nodes[v] = first / 3;
+      for (int i = 0; i < 3; ++i)
+        node_position_[nodes[v]][i] = cell->vertex(v)[i];
+    }
+  }
+
+  slot_head_.assign(n_nodes() + 1, 0);
+  for (const auto &nodes : element_nodes_)
+    for (const unsigned int node : nodes)
+      ++slot_head_[node + 1];
+  for (std::size_t node = 0; node < n_nodes(); ++node)
+    slot_head_[node + 1] += slot_head_[node];
+  slot_.resize(8 * n_elements());
+  auto next = slot_head_;
+  for (std::size_t e = 0; e < n_elements(); ++e)
+    for (unsigned int v = 0; v < 8; ++v)
+      slot_[next[element_nodes_[e][v]]++] = 8 * e + v;
+
+  geometry_ = reference_geometry(mesh_->dof_handler);
+  hexahedron::History initial{};
+  for (int i = 0; i < 3; ++i)
+    initial.stress[i] -= parameters.initial_pressure;
+  history_.assign(n_elements(), initial);
+  sector_.assign(hexahedron::n_points * n_elements(), Sector::elastic);
+  element_force_.resize(hexahedron::n_dofs * n_elements());
+  for (dealii::Vector<double> *vector : {&displacement_, &velocity_, &internal_force_, &external_force_,
+                                         &reaction_force_, &mass_, &displacement_of_stress_})
+    vector->reinit(n_dofs);
+  constraint_of_dof_.assign(n_dofs, -1);
+  gather_mass();
+}
+
+ExplicitBody::ExplicitBody(ExplicitBody &&) noexcept = default;
+ExplicitBody::~ExplicitBody() = default;
+
+const dealii::DoFHandler<3, 3> &ExplicitBody::dof_handler() const
+{
+  return mesh_->dof_handler;
+}
+
+void ExplicitBody::gather_mass()
+{
+  mass_ = 0;
+  for (std::size_t e = 0; e < n_elements(); ++e)
+  {
+    double mass[hexahedron::n_nodes];
+    hexahedron::lumped_mass(material_.density(), geometry_[e], mass);
+    for (int v = 0; v < 8; ++v)
+      for (int i = 0; i < 3; ++i)
+        mass_[3 * element_nodes_[e][v] + i] += mass[v];
+  }
+}
+
+void ExplicitBody::set_share(const std::span<const double> nodal_weight)
+{
+  if (nodal_weight.size() != n_nodes())
+    reject("continuum: ", nodal_weight.size(), " nodal weights given for ", n_nodes(), " nodes; give one per node");
+  for (std::size_t node = 0; node < n_nodes(); ++node)
+    if (!(nodal_weight[node] >= 0 && nodal_weight[node] <= 1))
+      reject("continuum: the weight of node ", node, " is ", nodal_weight[node], "; weights lie in [0, 1]");
+  // A node has mass exactly if one of its elements has a node of weight below 1. Checked first: a throw changes
+  // nothing.
+  std::vector<bool> has_mass(n_nodes(), false);
+  for (const auto &nodes : element_nodes_)
+    if (std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) { return nodal_weight[node] < 1; }))
+      for (const unsigned int node : nodes)
+        has_mass[node] = true;
+  const auto massless = std::find(has_mass.begin(), has_mass.end(), false);
+  if (massless != has_mass.end())
+    reject("continuum: the weights leave node ", massless - has_mass.begin(),
+           " without mass; bound them away from 1, e.g. by 0.999");
+
+  for (std::size_t e = 0; e < n_elements(); ++e)
+    for (int point = 0; point < hexahedron::n_points; ++point)
+    {
+      double share = 0;
+      for (int v = 0; v < 8; ++v)
+        share += hexahedron::shape_value(v, point) * (1 - nodal_weight[element_nodes_[e][v]]);
+      geometry_[e].share_volume[point] = share * geometry_[e].volume[point];
+    }
+  gather_mass();
+}
+
+void ExplicitBody::compute_internal_force()
+{
+  const std::size_t n_elements = this->n_elements(), n_nodes = this->n_nodes();
+  const double *const now = displacement_.begin();
+  double *const before = displacement_of_stress_.begin();
+#pragma omp parallel if (n_elements >= few_elements)
+  {
+#pragma omp for schedule(static)
+    for (std::size_t e = 0; e < n_elements; ++e)
+    {
+      double increment[hexahedron::n_dofs];
+      for (int v = 0; v < 8; ++v)
+        for (int i = 0; i < 3; ++i)
+        {
+          const std::size_t dof = 3 * std::size_t(element_nodes_[e][v]) + i;
+          increment[3 * v + i] = now[dof] - before[dof];
+        }
+      hexahedron::Points strain[6];
+      hexahedron::strain(geometry_[e], increment, strain);
+      hexahedron::update_stress(material_, geometry_[e], strain, history_[e], &sector_[hexahedron::n_points * e]);
+      hexahedron::internal_force(geometry_[e], history_[e].stress, &element_force_[hexahedron::n_dofs * e]);
+    }
+    // Each node sums its elements in their order: no race, and the same bits whatever the threads.
+#pragma omp for schedule(static)
+    for (std::size_t node = 0; node < n_nodes; ++node)
+    {
+      double force[3] = {0, 0, 0};
+      for (std::size_t k = slot_head_[node]; k < slot_head_[node + 1]; ++k)
+        for (int i = 0; i < 3; ++i)
+          force[i] += element_force_[3 * std::size_t(slot_[k]) + i];
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        internal_force_[3 * node + i] = force[i];
+        before[3 * node + i] = now[3 * node + i];
+      }
+    }
+  }
+}
+
+void ExplicitBody::kick(const double dt)
+{
+  const std::size_t n_nodes = this->n_nodes(), n_blocks = (n_nodes + block_nodes - 1) / block_nodes;
+  const double half_damping = 0.5 * parameters_.damping * dt;
+  const double half_step_before = 0.5 * ledger_.last_step, half_step_after = 0.5 * dt;
+  struct Sums
+  {
+    double kinetic = 0;
+    Work before, after;
+  };
+  std::vector<Sums> sums(n_blocks);
+#pragma omp parallel for schedule(static) if (n_nodes >= few_elements)
+  for (std::size_t block = 0; block < n_blocks; ++block)
+  {
+    Sums local;
+    const std::size_t end = std::min(n_nodes, (block + 1) * block_nodes);
+    for (std::size_t node = block * block_nodes; node < end; ++node)
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const std::size_t dof = 3 * node + i;
+        const double mass = mass_[dof], old = velocity_[dof];
+        const double external = external_force_[dof], weight = mass * parameters_.gravity[i];
+        const double force = external + weight - internal_force_[dof];
+        const int constraint = constraint_of_dof_[dof];
+        double fresh, damping, reaction = 0;
+        if (constraint < 0)
+        {
+          fresh = ((1 - half_damping) * old + dt * force / mass) / (1 + half_damping);
+          damping = 0.5 * parameters_.damping * mass * (old + fresh);
+        }
+        else
+        {
+          fresh = constraint_velocity_[constraint];
+          damping = 0.5 * parameters_.damping * mass * (old + fresh);
+          reaction = mass * (fresh - old) / dt + damping - force;
+        }
+        velocity_[dof] = fresh;
+        reaction_force_[dof] = reaction;
+        local.kinetic += 0.5 * mass * old * fresh;
+        const auto add = [&](Work &work, const double path)
+        {
+          work.external += external * path;
+          work.gravity += weight * path;
+          work.boundary += reaction * path;
+          work.viscous += damping * path;
+        };
+        add(local.before, half_step_before * old);
+        add(local.after, half_step_after * fresh);
+      }
+    sums[block] = local;
+  }
+
+  const auto accumulate = [](Work &total, const Work &part)
+  {
+    total.external += part.external;
+    total.gravity += part.gravity;
+    total.boundary += part.boundary;
+    total.viscous += part.viscous;
+  };
+  Sums total;
+  for (const Sums &block : sums)
+  {
+    total.kinetic += block.kinetic;
+    accumulate(total.before, block.before);
+    accumulate(total.after, block.after);
+  }
+  ledger_.here = ledger_.ahead;
+  accumulate(ledger_.here, total.before);
+  ledger_.ahead = ledger_.here;
+  accumulate(ledger_.ahead, total.after);
+  ledger_.kinetic = total.kinetic;
+  if (ledger_.last_step == 0)
+    ledger_.initial = ledger_.kinetic + elastic_energy() + plastic_energy();
+  ledger_.last_step = dt;
+}
+
+void ExplicitBody::drift(const double dt)
+{
+  const std::size_t n_dofs = displacement_.size();
+#pragma omp parallel for schedule(static) if (n_dofs >= 3 * few_elements)
+  for (std::size_t dof = 0; dof < n_dofs; ++dof)
+    displacement_[dof] += dt * velocity_[dof];
+}
+
+ExplicitBody::Constraint ExplicitBody::prescribe_velocity(const unsigned int boundary_id, const unsigned int component,
+                                                          const double velocity)
+{
+  return prescribe_velocity(boundary_nodes(boundary_id), component, velocity);
+}
+
+ExplicitBody::Constraint ExplicitBody::prescribe_velocity(const std::span<const unsigned int> nodes,
+                                                          const unsigned int component, const double velocity)
+{
+  if (component > 2)
+    reject("continuum: component ", component,
+           " of a prescribed velocity is not allowed; choose 0, 1 or 2 for x, y, z");
+  for (const unsigned int node : nodes)
+    if (node >= n_nodes())
+      reject("continuum: a velocity is prescribed at node ", node, ", but there are only ", n_nodes(), " nodes");
+  const Constraint constraint = constraint_velocity_.size();
+  auto &dofs = constraint_dofs_.emplace_back();
+  for (const unsigned int node : nodes)
+  {
+    const std::size_t dof = 3 * std::size_t(node) + component;
+    if (constraint_of_dof_[dof] >= 0)
+      continue;
+    constraint_of_dof_[dof] = constraint;
+    dofs.push_back(dof);
+  }
+  constraint_velocity_.push_back(velocity);
+  return constraint;
+}
+
+double ExplicitBody::reaction(const Constraint constraint) const
+{
+  double sum = 0;
+  for (const unsigned int dof : constraint_dofs_[constraint])
+    sum += reaction_force_[dof];
+  return sum;
+}
+
+std::vector<unsigned int> ExplicitBody::boundary_nodes(const unsigned int boundary_id) const
+{
+  std::vector<unsigned int> nodes;
+  for (const auto &face : boundary_faces(boundary_id))
+    nodes.insert(nodes.end(), face.begin(), face.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::vector<std::array<unsigned int, 4>> ExplicitBody::boundary_faces(const unsigned int boundary_id) const
+{
+  std::vector<std::array<unsigned int, 4>> faces;
+  for (const auto &cell : mesh_->dof_handler.active_cell_iterators())
+    for (const auto &face : cell->face_iterators())
+    {
+      if (!face->at_boundary() || face->boundary_id() != boundary_id)
+        continue;
+      std::array<unsigned int, 4> nodes;
+      constexpr unsigned int around[4] = {0, 1, 3, 2}; // deal.II counts line by line
+      for (int k = 0; k < 4; ++k)
+        nodes[k] = face->vertex_dof_index(around[k], 0, cell->active_fe_index()) / 3;
+      const auto normal =
+          dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+      if (normal * (face->center() - cell->center()) < 0)
+        std::swap(nodes[1], nodes[3]);
+      faces.push_back(nodes);
+    }
+  if (faces.empty())
+  {
+    std::ostringstream known;
+    for (const auto id : mesh_->triangulation.get_boundary_ids())
+      known << ' ' << id;
+    reject("continuum: the mesh has no boundary ", boundary_id, "; it has", known.str());
+  }
+  return faces;
+}
+
+Stress ExplicitBody::stress(const std::size_t element, const std::size_t point) const
+{
+  Stress result;
+  for (int i = 0; i < 6; ++i)
+    result[i] = history_[element].stress[i][point];
+  return result;
+}
+
+Stress ExplicitBody::average_stress(const std::size_t element) const
+{
+  Stress result;
+  for (int i = 0; i < 6; ++i)
+    result[i] = hexahedron::sum(geometry_[element].volume_fraction * history_[element].stress[i]);
+  return result;
+}
+
+Stress ExplicitBody::average_stress() const
+{
+  Stress result{};
+  double volume = 0;
+  for (std::size_t e = 0; e < n_elements(); ++e)
+  {
+    for (int i = 0; i < 6; ++i)
+      result[i] += hexahedron::sum(geometry_[e].volume * history_[e].stress[i]);
+    volume += hexahedron::sum(geometry_[e].volume);
+  }
+  for (double &component : result)
+    component /= volume;
+  return result;
+}
+
+double ExplicitBody::elastic_energy() const
+{
+  double energy = 0;
+  for (std::size_t e = 0; e < n_elements(); ++e)
+    for (int point = 0; point < hexahedron::n_points; ++point)
+      energy += geometry_[e].share_volume[point] * material_.elastic_energy_density(stress(e, point));
+  return energy;
+}
+
+double ExplicitBody::plastic_energy() const
+{
+  double energy = 0;
+  for (const auto &history : history_)
+    energy += hexahedron::sum(history.dissipated_energy);
+  return energy;
+}
+
+BodyEnergy ExplicitBody::energy() const
+{
+  BodyEnergy energy;
+  energy.kinetic = ledger_.kinetic;
+  energy.elastic = elastic_energy();
+  energy.plastic_dissipation = plastic_energy();
+  energy.viscous_dissipation = ledger_.here.viscous;
+  energy.boundary_work = ledger_.here.boundary;
+  energy.gravity_work = ledger_.here.gravity;
+  energy.external_work = ledger_.here.external;
+  energy.initial = ledger_.last_step > 0 ? ledger_.initial : energy.elastic + energy.plastic_dissipation;
+  return energy;
+}
+
+double ExplicitBody::max_velocity() const
+{
+  double greatest = 0;
+  for (std::size_t node = 0; node < n_nodes(); ++node)
+  {
+    const double x = velocity_[3 * node], y = velocity_[3 * node + 1], z = velocity_[3 * node + 2];
+    greatest = std::max(greatest, x * x + y * y + z * z);
+  }
+  return std::sqrt(greatest);
+}
+
+bool ExplicitBody::is_finite() const
+{
+  const auto finite = [](const double x) { return std::isfinite(x); };
+  return std::all_of(velocity_.begin(), velocity_.end(), finite) &&
+         std::all_of(displacement_.begin(), displacement_.end(), finite);
+}
+
+std::vector<std::pair<std::string, std::span<double>>> ExplicitBody::state()
+{
+  static_assert(sizeof(Ledger) % sizeof(double) == 0);
+  return {{"displacement", doubles_of(displacement_)},
+          {"displacement_of_stress", doubles_of(displacement_of_stress_)},
+          {"velocity", doubles_of(velocity_)},
+          {"internal_force", doubles_of(internal_force_)},
+          {"external_force", doubles_of(external_force_)},
+          {"reaction_force", doubles_of(reaction_force_)},
+          {"element_history", doubles_of(history_)},
+          {"constraint_velocity", {constraint_velocity_.data(), constraint_velocity_.size()}},
+          {"ledger", {reinterpret_cast<double *>(&ledger_), sizeof(Ledger) / sizeof(double)}}};
+}
+
+} // namespace bergamo::fe

@@ -1,0 +1,124 @@
+#pragma once
+
+#include "fe_dealii/material/principal.h"
+#include "fe_dealii/material/tensor.h"
+
+#include <cstdint>
+
+namespace bergamo::fe
+{
+
+/// Elastic and strength parameters of a granular continuum. The defaults are those that Wellmann (dissertation,
+/// sec. 5.4) fitted to his grains; the density has no meaningful default for another packing, so set it.
+struct MohrCoulombParameters
+{
+  double young_modulus = 60e6;   ///< [Pa], > 0
+  double poisson_ratio = 0.145;  ///< [-], in [0, 0.5)
+  double friction_angle = 23.15; ///< [degrees], in [dilation_angle, 90)
+  double dilation_angle = 5.17;  ///< [degrees], in [0, friction_angle]
+  double cohesion = 15;          ///< [Pa], >= 0; not zero together with the friction angle
+  double density = 1600;         ///< of the packing as a whole [kg/m³], > 0
+
+  /// Throws ParameterError that names the first value outside its range.
+  void validate() const;
+};
+
+/// The part of the yield surface that a stress ended on.
+enum class Sector : std::uint8_t
+{
+  elastic,    ///< inside
+  main_plane, ///< σ1 > σ2 > σ3
+  right_edge, ///< σ2 = σ3, triaxial extension
+  left_edge,  ///< σ1 = σ2, triaxial compression
+  apex        ///< σ1 = σ2 = σ3 = c cot φ
+};
+
+struct StressUpdate
+{
+  Stress stress;              ///< new stress
+  Strain plastic_strain;      ///< increment
+  Sector sector;              ///< where the new stress lies
+  double plastic_dissipation; ///< ½(σ_old + σ_new) : Δε_p [J/m³]; closes the balance of a leapfrog exactly
+};
+
+/// Small-strain, perfectly plastic, non-associative Mohr–Coulomb law: with σ1 >= σ2 >= σ3, tension positive,
+///   Φ = σ1 − σ3 + (σ1 + σ3) sin φ − 2 c cos φ <= 0,   flow along ∂Ψ/∂σ, Ψ = Φ with ψ in place of φ.
+/// Implicit return in principal stresses, closed form: de Souza Neto, Perić, Owen, Computational Methods for
+/// Plasticity (2008), sec. 8.2. All members are pure, free of allocation, exceptions and virtual calls.
+class MohrCoulomb
+{
+public:
+  /// Throws ParameterError.
+  explicit MohrCoulomb(const MohrCoulombParameters &parameters);
+
+  /// Stress after a strain increment from an admissible stress. Works for increments of any size.
+  StressUpdate update(const Stress &stress_old, const Strain &strain_increment) const;
+
+  /// The plastic half of update(): brings an elastic trial stress back to the yield surface (or leaves it inside).
+  /// `frame` is the principal frame of the trial stress.
+  StressUpdate return_to_surface(const Stress &stress_old, const Stress &stress_trial,
+                                 const PrincipalFrame<double> &frame) const;
+
+  /// Elastic stress of a strain.
+  Stress elastic_stress(const Strain &strain) const
+  {
+    const double volumetric = lame_ * (strain[0] + strain[1] + strain[2]);
+    return {2 * shear_ * strain[0] + volumetric,
+            2 * shear_ * strain[1] + volumetric,
+            2 * shear_ * strain[2] + volumetric,
+            shear_ * strain[3],
+            shear_ * strain[4],
+            shear_ * strain[5]};
+  }
+
+  /// Elastic strain of a stress.
+  Strain elastic_strain(const Stress &stress) const
+  {
+    const double mean = mean_stress(stress);
+    const double volumetric = mean / (3 * bulk_);
+    const double deviator = 1 / (2 * shear_);
+    return {(stress[0] - mean) * deviator + volumetric,
+            (stress[1] - mean) * deviator + volumetric,
+            (stress[2] - mean) * deviator + volumetric,
+            stress[3] / shear_,
+            stress[4] / shear_,
+            stress[5] / shear_};
+  }
+
+  /// ½ σ : C⁻¹ : σ [J/m³].
+  double elastic_energy_density(const Stress &stress) const
+  {
+    const double mean = mean_stress(stress);
+    return second_invariant(stress) / (2 * shear_) + mean * mean / (2 * bulk_);
+  }
+
+  /// Sufficient for Φ <= 0, without eigenvalues. In invariants Φ/2 = sqrt(J2)(cos θ − sin θ sin φ/√3) + p̂ sin φ −
+  /// c cos φ (ibid. 6.121); the bracket is at most sqrt(1 + sin²φ/3) over all Lode angles θ. `J2` may be a SIMD pack.
+  template <class Real>
+  auto is_surely_elastic(const Real &mean, const Real &j2) const
+  {
+    const Real slack = cohesion_cos_ - mean * sin_friction_;
+    return (slack >= 0.) & (j2 * worst_lode_ <= slack * slack);
+  }
+
+  /// Φ [Pa].
+  double yield_function(const Stress &stress) const;
+
+  double bulk_modulus() const { return bulk_; }          ///< K [Pa]
+  double shear_modulus() const { return shear_; }        ///< G [Pa]
+  double lame_modulus() const { return lame_; }          ///< λ = K − 2G/3 [Pa]
+  double density() const { return parameters_.density; } ///< [kg/m³]
+  double p_wave_speed() const;                           ///< sqrt((K + 4G/3)/ρ) [m/s]
+  const MohrCoulombParameters &parameters() const { return parameters_; }
+
+private:
+  MohrCoulombParameters parameters_;
+  double bulk_, shear_, lame_;
+  double sin_friction_, sin_dilation_, cohesion_cos_; // cohesion_cos_ = c cos φ
+  double worst_lode_;                                 // 1 + sin²φ/3
+  double apex_;                                       // c cot φ
+  double plane_;                                      // a in the reference: ∂Φ : C : ∂Ψ of one plane with itself
+  double right_, left_;                               // b: of the main plane with its neighbour across an edge
+};
+
+} // namespace bergamo::fe

@@ -1,0 +1,90 @@
+#include "fe_dealii/stable_step.h"
+
+#include "fe_dealii/explicit_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace bergamo::fe
+{
+namespace
+{
+
+constexpr int n = hexahedron::n_dofs;
+
+// Upper bound on the largest eigenvalue of a symmetric positive semi-definite matrix A, which is overwritten. With
+// T_m = tr A^m, (T_2m/T_m)^(1/m) <= λ <= T_m^(1/m): squaring A closes the bracket from both sides, where a power
+// iteration would come from below, the unsafe side, and may miss a mode.
+double largest_eigenvalue_bound(double (&a)[n][n])
+{
+  double(*matrix)[n] = a;
+  double scratch[n][n];
+  double(*square)[n] = scratch;
+  double log_scale = 0; // the power of A is matrix * exp(log_scale)
+  double upper = 0;
+  double power = 1;
+  double log_trace_of_half = 0;
+  for (int squaring = 0; squaring < 14; ++squaring)
+  {
+    double trace = 0;
+    for (int i = 0; i < n; ++i)
+      trace += matrix[i][i];
+    if (!(trace > 0))
+      return 0;
+    const double log_trace = log_scale + std::log(trace);
+    upper = log_trace / power;
+    if (squaring > 0)
+    {
+      const double lower = (log_trace - log_trace_of_half) / (power / 2);
+      if (upper - lower < 4e-3)
+        break;
+    }
+    log_trace_of_half = log_trace;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        // Tiny entries would sink into slow denormal numbers; against a trace of 1 they are nothing.
+        matrix[i][j] = std::abs(matrix[i][j]) > 1e-60 * trace ? matrix[i][j] / trace : 0;
+    for (int i = 0; i < n; ++i)
+    {
+      double row[n] = {};
+      for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+          row[j] += matrix[i][k] * matrix[k][j];
+      std::copy(row, row + n, square[i]);
+    }
+    std::swap(matrix, square);
+    log_scale = 2 * log_trace;
+    power *= 2;
+  }
+  return std::exp(upper) * (1 + 1e-12); // covers rounding of the sums
+}
+
+double element_eigenvalue(const ExplicitBody &body, const std::size_t element)
+{
+  const hexahedron::Geometry &geometry = body.geometry()[element];
+  double matrix[n][n], mass[hexahedron::n_nodes];
+  hexahedron::elastic_stiffness(body.material(), geometry, &matrix[0][0]);
+  hexahedron::lumped_mass(body.material().density(), geometry, mass);
+  if (!(mass[0] > 0)) // no share in the continuum
+    return 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      matrix[i][j] /= std::sqrt(mass[i / 3] * mass[j / 3]);
+  return largest_eigenvalue_bound(matrix);
+}
+
+} // namespace
+
+StableStep stable_step(const ExplicitBody &body)
+{
+  std::vector<double> eigenvalue(body.n_elements());
+#pragma omp parallel for schedule(static)
+  for (std::size_t e = 0; e < eigenvalue.size(); ++e)
+    eigenvalue[e] = element_eigenvalue(body, e);
+  const auto largest = std::max_element(eigenvalue.begin(), eigenvalue.end());
+  return {2 / std::sqrt(*largest), *largest, std::size_t(largest - eigenvalue.begin())};
+}
+
+} // namespace bergamo::fe

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+namespace bergamo::fe
+{
+
+class ExplicitBody;
+
+struct StableStep
+{
+  double time_step;          ///< 2/sqrt(largest_eigenvalue) [s]: the leapfrog is stable up to here, or a little beyond
+  double largest_eigenvalue; ///< bound on ω² of the body [1/s²]; add that of a penalty before taking the root
+  std::size_t element;       ///< the element that sets it
+};
+
+/// Stable time step of a body in its elastic state (plastic flow only softens it). No eigenvalue of the body exceeds
+/// the largest one of its elements, K_e x = λ M_e x with the lumped element mass (Belytschko, Liu, Moran 2000,
+/// sec. 6.2; Wellmann 2.58). Each λ_e is bounded from above, by at most 0.4 %. Prescribed velocities and damping do not
+/// lower it.
+StableStep stable_step(const ExplicitBody &body);
+
+} // namespace bergamo::fe

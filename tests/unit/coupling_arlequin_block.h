@@ -1,0 +1,77 @@
+#pragma once
+
+#include "coupling/arlequin/overlap.h"
+
+#include <array>
+#include <random>
+
+namespace bergamo::coupling::test
+{
+
+/// Block of n x n x n trilinear elements (parallelepipeds, so that places in them are known in closed form), filled
+/// with particles at random. The mesh counts its nodes backwards and with gaps, to tell both numberings apart.
+inline Overlap block(const int n, const int particles_per_element, const unsigned seed = 1)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(0., 1.);
+  Eigen::Matrix3d edges; // of one element [m]
+  edges << 0.010, 0.002, 0.001, 0., 0.012, -0.001, 0.001, 0., 0.009;
+  const Eigen::Vector3d origin(0.3, -0.2, 0.1);
+  const double element_volume = edges.determinant();
+
+  Overlap overlap;
+  const int m = n + 1;
+  const auto node = [m](const int i, const int j, const int k) { return (i * m + j) * m + k; };
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < m; ++j)
+      for (int k = 0; k < m; ++k)
+      {
+        overlap.nodes.push_back(2 * (m * m * m - static_cast<int>(overlap.nodes.size())) + 3);
+        overlap.node_position.push_back(origin + edges * Eigen::Vector3d(i, j, k));
+      }
+
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k)
+      {
+        std::array<int, 8> corner;
+        for (int c = 0; c < 8; ++c)
+          corner[c] = node(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
+        for (int a = 0; a < 8; ++a)
+          for (int b = 0; b < 8; ++b)
+          {
+            double value = element_volume;
+            for (int axis = 0; axis < 3; ++axis)
+              value *= (a >> axis & 1) == (b >> axis & 1) ? 1. / 3. : 1. / 6.;
+            entries.emplace_back(corner[a], corner[b], value);
+          }
+        for (int p = 0; p < particles_per_element; ++p)
+        {
+          const Eigen::Vector3d place(uniform(random), uniform(random), uniform(random));
+          overlap.particle_id.push_back(1000 + 7 * static_cast<std::int64_t>(overlap.particle_id.size()));
+          overlap.particle_volume.push_back(element_volume * 0.6 / particles_per_element * (0.5 + uniform(random)));
+          overlap.reference_position.push_back(origin + edges * (Eigen::Vector3d(i, j, k) + place));
+          for (int c = 0; c < 8; ++c)
+          {
+            double value = 1.;
+            for (int axis = 0; axis < 3; ++axis)
+              value *= (c >> axis & 1) ? place[axis] : 1. - place[axis];
+            overlap.shape_node.push_back(corner[c]);
+            overlap.shape_value.push_back(value);
+          }
+          overlap.shape_offset.push_back(overlap.shape_node.size());
+        }
+      }
+  overlap.volume_matrix.resize(m * m * m, m * m * m);
+  overlap.volume_matrix.setFromTriplets(entries.begin(), entries.end());
+  return overlap;
+}
+
+/// Length of the mesh's vectors of degrees of freedom.
+inline std::size_t n_dofs(const Overlap &overlap)
+{
+  return 3 * (2 * overlap.n_nodes() + 10);
+}
+
+} // namespace bergamo::coupling::test

@@ -1,0 +1,229 @@
+#include "dem/core/error.h"
+#include "dem/io/pvd.h"
+#include "dem/io/vtu.h"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <map>
+
+using namespace bergamo::dem;
+namespace fs = std::filesystem;
+
+namespace
+{
+
+struct Folder
+{
+  fs::path path;
+  Folder()
+  {
+    std::string name = (fs::temp_directory_path() / "bergamo-vtu-XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  ~Folder()
+  {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+std::string read_all(const fs::path &path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Just enough of a reader: the arrays by name from the raw binary part.
+struct Vtu
+{
+  std::string xml;
+  std::string binary;
+  std::size_t n_points = 0, n_cells = 0;
+  std::map<std::string, std::size_t> offset;
+
+  explicit Vtu(const std::string &bytes)
+  {
+    const std::string mark = "<AppendedData encoding=\"raw\">\n_", end = "\n  </AppendedData>\n</VTKFile>\n";
+    const std::size_t start = bytes.find(mark);
+    REQUIRE(start != std::string::npos);
+    REQUIRE(bytes.ends_with(end));
+    xml = bytes.substr(0, start);
+    binary = bytes.substr(start + mark.size(), bytes.size() - end.size() - start - mark.size());
+    n_points = std::stoul(value_after("NumberOfPoints=\"", 0));
+    n_cells = std::stoul(value_after("NumberOfCells=\"", 0));
+    for (std::size_t at = xml.find("<DataArray"); at != std::string::npos; at = xml.find("<DataArray", at + 1))
+      offset[value_after("Name=\"", at)] = std::stoul(value_after("offset=\"", at));
+  }
+
+  std::string value_after(const std::string &key, const std::size_t from) const
+  {
+    const std::size_t start = xml.find(key, from) + key.size();
+    return xml.substr(start, xml.find('"', start) - start);
+  }
+
+  template <class Value>
+  std::vector<Value> array(const std::string &name) const
+  {
+    REQUIRE(offset.count(name) == 1);
+    const char *start = binary.data() + offset.at(name);
+    std::uint64_t size;
+    std::memcpy(&size, start, sizeof size);
+    REQUIRE(offset.at(name) + sizeof size + size <= binary.size());
+    REQUIRE(size % sizeof(Value) == 0);
+    std::vector<Value> values(size / sizeof(Value));
+    if (size > 0)
+      std::memcpy(values.data(), start + sizeof size, size);
+    return values;
+  }
+};
+
+Particles three_grains()
+{
+  Particles particles;
+  const Quaternion turn(Eigen::AngleAxisd(0.7, Vec3(1., 2., -1.).normalized()));
+  particles.add({Vec3(1e-3, 1e-3, 1e-3), 1., 1.}, 2650., Vec3(0., 0., 0.), Quaternion::Identity());
+  particles.add({Vec3(0.6e-3, 0.4e-3, 0.3e-3), 0.2, 0.2}, 2650., Vec3(3e-3, 0., 1e-3), turn);
+  particles.add({Vec3(0.7e-3, 0.5e-3, 0.9e-3), 1.5, 1.3}, 2650., Vec3(0., -2e-3, 0.), turn.conjugate());
+  particles.velocity[1] = Vec3(1., 2., 3.);
+  particles.id = {10, 5000000000, 12};
+  return particles;
+}
+
+} // namespace
+
+TEST_CASE("grains are written as closed surfaces of their true volume")
+{
+  const Folder folder;
+  const Particles particles = three_grains();
+  const std::vector<double> pressure{1., 2., 3.};
+  const std::vector<GrainField> fields{{"p < \"5\" & more [Pa]", pressure}};
+  const fs::path path = folder.path / "grains.vtu";
+  write_grains_vtu(particles, fields, path);
+  CHECK_FALSE(fs::exists(path.string() + ".partial"));
+
+  const Vtu vtu(read_all(path));
+  const auto points = vtu.array<float>("Points");
+  const auto corners = vtu.array<std::int32_t>("connectivity");
+  const auto ends = vtu.array<std::int32_t>("offsets");
+  const auto types = vtu.array<std::uint8_t>("types");
+  const auto id = vtu.array<std::int64_t>("id");
+  const auto velocity = vtu.array<float>("velocity");
+  const auto field = vtu.array<float>("p &lt; &quot;5&quot; &amp; more [Pa]");
+  REQUIRE(points.size() == 3 * vtu.n_points);
+  REQUIRE(ends.size() == vtu.n_cells);
+  REQUIRE(types.size() == vtu.n_cells);
+  REQUIRE(id.size() == vtu.n_cells);
+  REQUIRE(velocity.size() == 3 * vtu.n_cells);
+  REQUIRE(field.size() == vtu.n_cells);
+  REQUIRE(static_cast<std::size_t>(ends.back()) == corners.size());
+  REQUIRE(vtu.n_cells == 3 * 288);
+
+  const auto point = [&](const int i) { return Vec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]); };
+  std::vector<double> enclosed(3, 0.);
+  std::map<std::pair<int, int>, int> edges;
+  for (std::size_t cell = 0, begin = 0; cell < vtu.n_cells; begin = ends[cell++])
+  {
+    const std::size_t grain = cell / 288, n = ends[cell] - begin;
+    REQUIRE(types[cell] == (n == 3 ? 5 : 9));
+    CHECK(id[cell] == particles.id[grain]);
+    CHECK(velocity[3 * cell + 1] == (grain == 1 ? 2.f : 0.f));
+    CHECK(field[cell] == static_cast<float>(pressure[grain]));
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      const int from = corners[begin + k], to = corners[begin + (k + 1) % n];
+      ++edges[{from, to}];
+      if (k > 0 && k + 1 < n)
+      {
+        const Vec3 centre = particles.position[grain];
+        enclosed[grain] += (point(corners[begin]) - centre).dot((point(from) - centre).cross(point(to) - centre)) / 6.;
+      }
+    }
+  }
+  // Closed and oriented: each edge is passed once either way.
+  for (const auto &[edge, n] : edges)
+    CHECK((n == 1 && edges.count({edge.second, edge.first}) == 1));
+  for (std::size_t grain = 0; grain < 3; ++grain)
+    CHECK(enclosed[grain] == Approx(volume(particles.shape[grain])).epsilon(0.03));
+}
+
+TEST_CASE("every written point lies on its grain")
+{
+  const Folder folder;
+  const Particles particles = three_grains();
+  write_grains_vtu(particles, {}, folder.path / "grains.vtu", 4);
+  const Vtu vtu(read_all(folder.path / "grains.vtu"));
+  const auto points = vtu.array<float>("Points");
+  const std::size_t n_each = vtu.n_points / 3;
+  for (std::size_t i = 0; i < vtu.n_points; ++i)
+  {
+    const std::size_t grain = i / n_each;
+    const Vec3 body = particles.orientation[grain].conjugate() *
+                      (Vec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]) - particles.position[grain]);
+    // F is of degree 2/eps in the distance: take it back to the distance.
+    const double f = inside_outside(particles.shape[grain], body);
+    CHECK(std::pow(f, particles.shape[grain].eps2 / 2.) == Approx(1.).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("the volume drawn stays near the true one over all shapes")
+{
+  const Folder folder;
+  Particles particles;
+  std::vector<double> exponents{0.1, 0.3, 0.6, 1., 1.3, 1.7};
+  for (const double eps1 : exponents)
+    for (const double eps2 : exponents)
+      particles.add({Vec3(1.1, 0.8, 0.6), eps1, eps2}, 1., Vec3::Zero(), Quaternion::Identity());
+  write_grains_vtu(particles, {}, folder.path / "grains.vtu");
+  const Vtu vtu(read_all(folder.path / "grains.vtu"));
+  const auto points = vtu.array<float>("Points");
+  const auto corners = vtu.array<std::int32_t>("connectivity");
+  const auto ends = vtu.array<std::int32_t>("offsets");
+  const auto point = [&](const int i) { return Vec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]); };
+  std::vector<double> enclosed(particles.size(), 0.);
+  for (std::size_t cell = 0, begin = 0; cell < vtu.n_cells; begin = ends[cell++])
+    for (std::size_t k = begin + 1; k + 1 < static_cast<std::size_t>(ends[cell]); ++k)
+      enclosed[cell / 288] += point(corners[begin]).dot(point(corners[k]).cross(point(corners[k + 1]))) / 6.;
+  for (std::size_t grain = 0; grain < particles.size(); ++grain)
+  {
+    INFO("eps " << particles.shape[grain].eps1 << " " << particles.shape[grain].eps2);
+    CHECK(enclosed[grain] == Approx(volume(particles.shape[grain])).epsilon(0.03));
+  }
+}
+
+TEST_CASE("no grains make a file without cells")
+{
+  const Folder folder;
+  write_grains_vtu({}, {}, folder.path / "grains.vtu");
+  const Vtu vtu(read_all(folder.path / "grains.vtu"));
+  CHECK(vtu.n_points == 0);
+  CHECK(vtu.n_cells == 0);
+  CHECK(vtu.array<float>("Points").empty());
+}
+
+TEST_CASE("mistakes in writing grains are named")
+{
+  const Folder folder;
+  const Particles particles = three_grains();
+  const std::vector<double> two{1., 2.};
+  const std::vector<GrainField> fields{{"pressure", two}};
+  CHECK_THROWS_WITH(write_grains_vtu(particles, fields, folder.path / "grains.vtu"),
+                    Catch::Contains("'pressure'") && Catch::Contains("2 values for 3 grains"));
+  CHECK_THROWS_AS(write_grains_vtu(particles, {}, folder.path / "grains.vtu", 5), ConfigError);
+  CHECK_THROWS_AS(write_grains_vtu(particles, {}, folder.path / "no/grains.vtu"), RunError);
+  CHECK_THROWS_AS(write_pvd(folder.path / "no/grains.pvd", {}), RunError);
+  CHECK(fs::is_empty(folder.path));
+}
+
+TEST_CASE("a collection lists its frames with their times to the last digit")
+{
+  const Folder folder;
+  const std::vector<std::pair<double, std::string>> frames{{0., "grains_0.vtu"}, {0.1 + 0.2, "a&b.vtu"}};
+  write_pvd(folder.path / "grains.pvd", frames);
+  const std::string text = read_all(folder.path / "grains.pvd");
+  CHECK_THAT(text, Catch::Contains("<VTKFile type=\"Collection\"") &&
+                       Catch::Contains("timestep=\"0\" part=\"0\" file=\"grains_0.vtu\"") &&
+                       Catch::Contains("timestep=\"0.30000000000000004\"") && Catch::Contains("a&amp;b.vtu") &&
+                       Catch::EndsWith("</VTKFile>\n"));
+}

@@ -1,0 +1,127 @@
+#include "drivers/common/interrupt.h"
+#include "drivers/common/progress.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <sstream>
+
+using namespace bergamo::driver;
+using Catch::Matchers::Contains;
+
+namespace
+{
+
+struct Display
+{
+  double now = 100;
+  std::ostringstream stream;
+  ProgressOptions options(const bool is_terminal, const bool quiet = false)
+  {
+    ProgressOptions options;
+    options.is_terminal = is_terminal;
+    options.quiet = quiet;
+    options.stream = &stream;
+    options.clock = [this] { return now; };
+    return options;
+  }
+};
+
+/// A stage of 1000 steps that takes 100 s.
+void run_stage(Display &display, Progress &progress)
+{
+  progress.begin_stage("shear", {.particles = 2000});
+  for (int step = 1; step <= 1000; ++step)
+  {
+    display.now += 0.1;
+    progress.update({.fraction = step / 1000.0, .time_s = step * 1e-5, .steps = step, .particles = 2000});
+  }
+  progress.end_stage();
+}
+
+} // namespace
+
+TEST_CASE("a progress line says what is known, and only that")
+{
+  CHECK(format_progress({.stage = "shear", .fraction = 0.423, .time_s = 0.0123}) == "shear   42.3 %  t = 0.0123 s");
+  CHECK(format_progress({"shear", 1, 0.5, 1234, 2468000, 192}) ==
+        "shear  100.0 %  t = 0.5 s  1.23 k steps/s  2.47 M particle-steps/s  3 min 12 s left");
+  CHECK(format_progress({"shear", 0.5, 0, 0.5, 999.7, 0}) ==
+        "shear   50.0 %  t = 0 s  0.5 steps/s  1 k particle-steps/s  0 s left");
+}
+
+TEST_CASE("durations read well")
+{
+  CHECK(format_duration(0.4) == "0 s");
+  CHECK(format_duration(59.4) == "59 s");
+  CHECK(format_duration(59.6) == "1 min 00 s");
+  CHECK(format_duration(75) == "1 min 15 s");
+  CHECK(format_duration(7300) == "2 h 01 min");
+  CHECK(format_duration(-1) == "0 s");
+}
+
+TEST_CASE("without a terminal there is a plain line every ten seconds and one at the end")
+{
+  Display display;
+  Progress progress(display.options(false));
+  run_stage(display, progress);
+  const std::string text = display.stream.str();
+  const auto n_lines = std::count(text.begin(), text.end(), '\n');
+  CHECK(n_lines >= 10);
+  CHECK(n_lines <= 11);
+  CHECK_THAT(text, !Contains("\r"));
+  CHECK_THAT(text, Contains("shear  100.0 %  t = 0.01 s  10 steps/s  20 k particle-steps/s  1 min 40 s\n"));
+}
+
+TEST_CASE("on a terminal one line is renewed, five times a second at most, and never wider than the terminal")
+{
+  Display display;
+  ProgressOptions options = display.options(true);
+  options.max_width = 40;
+  Progress progress(options);
+  run_stage(display, progress);
+  const std::string text = display.stream.str();
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+  CHECK(std::count(text.begin(), text.end(), '\r') <= 502);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line, '\r');)
+    CHECK(line.size() <= 41); // with the final line break
+}
+
+TEST_CASE("the time left follows from the stage's own fraction, also after a restart")
+{
+  Display display;
+  Progress progress(display.options(false));
+  progress.begin_stage("shear", {.fraction = 0.5, .steps = 500, .particles = 10});
+  display.now += 20;
+  progress.update({.fraction = 0.6, .steps = 600, .particles = 10});
+  CHECK_THAT(display.stream.str(), Contains("  5 steps/s  50 particle-steps/s  1 min 20 s left"));
+}
+
+TEST_CASE("quiet is silent")
+{
+  for (const bool is_terminal : {false, true})
+  {
+    Display display;
+    Progress progress(display.options(is_terminal, true));
+    run_stage(display, progress);
+    progress.message("hello");
+    CHECK(display.stream.str().empty());
+  }
+}
+
+TEST_CASE("a signal raises the flag that the run loop reads")
+{
+  const auto old_interrupt = std::signal(SIGINT, SIG_DFL);
+  const auto old_terminate = std::signal(SIGTERM, SIG_DFL);
+  install_interrupt_handler();
+  CHECK_FALSE(interrupted());
+  std::raise(SIGTERM);
+  CHECK(interrupted());
+  CHECK(interrupt_signal() == SIGTERM);
+  clear_interrupt();
+  CHECK_FALSE(interrupted());
+  std::signal(SIGINT, old_interrupt);
+  std::signal(SIGTERM, old_terminate);
+}
