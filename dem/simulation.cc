@@ -83,6 +83,7 @@ void Simulation::change(const SimulationParameters &parameters)
   pair_law.friction = p.friction;
   wall_law.friction = p.wall_friction;
   pair_law.damping_ratio = wall_law.damping_ratio = p.damping_ratio;
+  refresh_contacts(); // the last drift was made with the old step
 }
 
 void Simulation::rebuild_neighbours()
@@ -127,6 +128,7 @@ void Simulation::sort_by_place()
 
 void Simulation::remove_wall(const std::int32_t index)
 {
+  h.removed_wall_work += walls[index].work;
   wall_contacts.remove_wall(index);
   walls.erase(walls.begin() + index);
   rebuild_neighbours();
@@ -224,6 +226,7 @@ void Simulation::rest()
   std::fill(particles.velocity.begin(), particles.velocity.end(), Vec3::Zero());
   std::fill(particles.angular_momentum.begin(), particles.angular_momentum.end(), Vec3::Zero());
   std::fill(particles.angular_velocity.begin(), particles.angular_velocity.end(), Vec3::Zero());
+  refresh_contacts(); // the last drift is not known any more
 }
 
 void Simulation::reset_accounts()
@@ -236,6 +239,7 @@ void Simulation::reset_accounts()
   pairs.losses = wall_contacts.losses = {};
   for (PlaneWall &wall : walls)
     wall.work = 0.;
+  h.removed_wall_work = 0.;
   std::fill(h.external_work.begin(), h.external_work.end(), 0.);
   h.start_potential = gravity_potential();
 }
@@ -275,6 +279,7 @@ GrainEnergy Simulation::energy() const
     e.friction_loss += lost.friction;
     e.viscous_loss += lost.viscous;
   }
+  e.wall_work = h.removed_wall_work;
   for (const PlaneWall &wall : walls)
     e.wall_work += wall.work;
   e.gravity_work = h.start_potential - gravity_potential();

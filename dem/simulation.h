@@ -95,6 +95,7 @@ public:
     std::vector<Vec3> position_when_built;
     std::vector<double> wall_motion_when_built;
     double start_potential = 0.;            ///< of gravity when the accounts were opened [J]
+    double removed_wall_work = 0.;          ///< done since then by walls that were removed [J]
     std::vector<double> external_work;      ///< done on each grain since then [J]
     std::vector<Vec3> last_external_force;  ///< [N]
   };

@@ -49,7 +49,8 @@ double length_scale(const BodyPose &body1, const BodyPose &body2)
 
 /// Step of the Newton model of phi on the tangent plane at e.c, shifted until the model is convex: always downhill.
 /// H1 + H2 is the tangential Hessian of phi; -phi comes from the curvature of the sphere.
-Vec3 newton_step(const Evaluation &e)
+/// @param least curvature that the model is given at least [m]; @param longest step [rad]
+Vec3 newton_step(const Evaluation &e, const double least, const double longest)
 {
   const TangentFrame frame = tangent_frame(e.c);
   const Vec3 t1 = frame.col(0), t2 = frame.col(1);
@@ -59,24 +60,28 @@ Vec3 newton_step(const Evaluation &e)
   double b11 = t1.dot(ht1) - e.phi;
   double b22 = t2.dot(ht2) - e.phi;
   const double b12 = t1.dot(ht2);
-  // Shift the smaller eigenvalue to a small positive share of the larger one where the model is not convex.
+  // Shift the smaller eigenvalue where the model is not convex. Beside the huge one of a flat face the difference of mean
+  // and radius would cancel to nothing: the determinant keeps it.
   const double mean = 0.5 * (b11 + b22);
   const double radius = std::hypot(0.5 * (b11 - b22), b12);
-  const double floor = 1e-12 * (std::abs(mean) + radius);
-  if (mean - radius < floor)
+  const double high = mean + radius;
+  const double low = mean > 0. ? b11 / high * b22 - b12 / high * b12 : mean - radius;
+  if (low < least)
   {
-    const double shift = floor - (mean - radius) + std::abs(mean - radius);
+    const double shift = std::max(least, std::abs(low)) - low;
     b11 += shift;
     b22 += shift;
   }
   const double det = b11 * b22 - b12 * b12;
   Vec2 step((-gradient[0] * b22 + gradient[1] * b12) / det, (-gradient[1] * b11 + gradient[0] * b12) / det);
   const double length = step.norm();
-  const double longest = 0.5; // about 30 degrees: the model says nothing beyond
   if (!(length <= longest))
     step *= std::isfinite(length) ? longest / length : 0.;
   return t1 * step[0] + t2 * step[1];
 }
+
+constexpr double longest_step = 0.5;     // about 30 degrees: the model says nothing beyond
+constexpr double least_curvature = 1e-6; // of the model, over the smallest half-axis
 
 /// A separating direction is known; lower phi towards the true gap, so that the pair can rest longer.
 Evaluation widen_gap(const BodyPose &body1, const BodyPose &body2, Evaluation current, int &n_evaluations)
@@ -88,7 +93,7 @@ Evaluation widen_gap(const BodyPose &body1, const BodyPose &body2, Evaluation cu
     const Vec3 tangential = tangential_gap(current);
     if (tangential.norm() < good_enough * -current.phi)
       break;
-    const Vec3 step = newton_step(current);
+    const Vec3 step = newton_step(current, least_curvature * length_scale(body1, body2), longest_step);
     const Evaluation trial = evaluate(body1, body2, (current.c + step).normalized());
     ++n_evaluations;
     if (!(trial.phi < current.phi))
@@ -102,13 +107,16 @@ Evaluation widen_gap(const BodyPose &body1, const BodyPose &body2, Evaluation cu
 /// Ends `separated` at the first direction with phi < 0, `touching` at a converged minimum with phi >= 0.
 ContactGeometry minimise(const BodyPose &body1, const BodyPose &body2, const Vec3 &start)
 {
-  constexpr int max_evaluations = 100;
+  constexpr int max_evaluations = 250;
   constexpr double resolution = 1e-15; // of a unit vector
-  const double tolerance = 1e-10 * length_scale(body1, body2);
+  constexpr double growth = 1.5; // of the longest step after a success
+  const double scale = length_scale(body1, body2);
+  const double tolerance = 1e-10 * scale, least = least_curvature * scale;
 
   Evaluation current = evaluate(body1, body2, start);
   Vec3 tangential = tangential_gap(current);
-  Vec3 step = newton_step(current);
+  double longest = longest_step;
+  Vec3 step = newton_step(current, least, longest);
   for (int n_evaluations = 1;; ++n_evaluations)
   {
     if (current.phi < 0.)
@@ -138,12 +146,15 @@ ContactGeometry minimise(const BodyPose &body1, const BodyPose &body2, const Vec
     {
       current = trial;
       tangential = trial_tangential;
-      step = newton_step(current);
+      longest = std::min(longest_step, std::max(longest, growth * step.norm()));
+      step = newton_step(current, least, longest);
     }
     else
     {
       const double secant = slope / (slope - trial_slope); // least phi between both ends
       step *= std::isfinite(secant) ? std::clamp(secant, 0.05, 0.7) : 0.25;
+      // Near the kink of a flat face Newton's step is too long by 1/(q - 1): remember what was found.
+      longest = step.norm();
     }
   }
 }

@@ -7,7 +7,7 @@ namespace bergamo::dem
 
 void ContactParameters::validate() const
 {
-  require(motion_budget >= 0. && motion_budget <= 0.01, "contact motion budget", motion_budget, "in [0, 0.01]");
+  require(overlap_tolerance >= 0. && overlap_tolerance <= 0.1, "overlap tolerance", overlap_tolerance, "in [0, 0.1]");
   require(curvature_bound > 0. && curvature_bound <= 1., "contact curvature bound", curvature_bound, "in (0, 1]");
 }
 

@@ -4,21 +4,32 @@
 #include "dem/shape/superquadric.h"
 #include "dem/law/hertz.h"
 
+#include <cmath>
+
 namespace bergamo::dem
 {
 
 /// How contacts are searched and how sharp or flat their surfaces may be.
 struct ContactParameters
 {
-  /// A touching pair is searched anew when its relative motion exceeds this share of its smaller bounding radius r.
-  /// In between the overlap follows the rigid motion, with an error of about motion_budget^2 r. 0: every step.
-  double motion_budget = 2e-5;
+  /// Between two searches of a touching pair its overlap follows the rigid motion with the normal held. The error is of
+  /// second order, about theta^2 H / 2 with theta the relative motion over the bounding radius and H the sum of both
+  /// surfaces' radii of curvature; a new search is due when it may exceed this share of the overlap. 0: every step.
+  double overlap_tolerance = 1e-4;
   /// Radii of curvature are bounded to [curvature_bound r_min, r_max / curvature_bound]; see CurvatureBounds.
   double curvature_bound = 0.1;
 
   /// Throws ConfigError for a value out of its range.
   void validate() const;
 };
+
+/// Relative motion at a contact after which it is searched anew [m], see ContactParameters::overlap_tolerance.
+/// @param radius smaller bounding radius of the pair [m]; @param overlap [m], > 0; @param curvature_radius H [m]
+inline double motion_budget(const ContactParameters &parameters, const double radius, const double overlap,
+                            const double curvature_radius)
+{
+  return radius * std::sqrt(2. * parameters.overlap_tolerance * overlap / curvature_radius);
+}
 
 inline CurvatureBounds curvature_bounds(const Superquadric &shape, const double factor)
 {

@@ -22,6 +22,7 @@ struct ContactState
   double reduced_mass = 0.;    ///< [kg]
   double weight = 1.;          ///< share of the contact in the virtual work
   double motion = 0.;          ///< relative motion at the contact since the last search [m]
+  double motion_budget = 0.;   ///< of the motion [m]; beyond it the contact is searched anew
   double spin = 0.;            ///< mean rotation about the normal since the last search [rad]
   double friction_loss = 0.;   ///< weighted energy lost tangentially since the contact began [J]
   double viscous_loss = 0.;    ///< weighted energy lost in the dashpot since the contact began [J]
@@ -102,7 +103,8 @@ inline void take_geometry(ContactState &s, const Vec3 &normal, const double over
 }
 
 /// Force of a touching contact at this step, and its energy losses by the trapezoidal rule, which closes the energy
-/// balance of the leapfrog scheme exactly.
+/// balance of the leapfrog scheme for constant stiffness. The stiffness follows the curvature at the contact, so that the
+/// normal force of rolling grains has no potential: that share of the balance stays open and is part of its residual.
 /// @param s with this step's overlap > 0 in place; @param old_overlap last step's, <= 0 for a new contact [m]
 /// @param displacement motion of body 2 relative to body 1 at the contact point since last step [m]
 /// @return force on body 1, without the weight [N]

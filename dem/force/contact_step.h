@@ -12,7 +12,6 @@ namespace bergamo::dem
 /// Rigid motion of the two bodies of a contact since the last step.
 struct ContactMotion
 {
-  double budget;   ///< relative motion after which the contact is searched anew [m]
   double rotation; ///< bound of the motion of a surface point by rotation [m]
   Vec3 mean_turn;  ///< mean rotation of both bodies [rad]
 };
@@ -36,7 +35,7 @@ Vec3 step_contact(ContactState &s, const ContactLaw &law, const ContactMotion &m
     s.motion += displacement.norm() + motion.rotation;
     s.spin += s.normal.dot(motion.mean_turn);
   }
-  if (!was_touching || s.motion > motion.budget || !(s.overlap > 0.))
+  if (!was_touching || s.motion > s.motion_budget || !(s.overlap > 0.))
   {
     const ContactState before = s;
     search(s);

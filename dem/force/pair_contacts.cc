@@ -27,6 +27,7 @@ void exchange_bodies(ContactState &s)
 {
   s.normal = -s.normal;
   s.tangential_force = -s.tangential_force;
+  s.spin = -s.spin; // about the normal
 }
 
 /// Searches the contact at the present poses. A touching pair takes the geometry, a separated one a rest.
@@ -45,6 +46,8 @@ bool search(const Particles &p, const std::int32_t i, const std::int32_t j, Cont
                            curvature_bounds(p.shape[j], parameters.curvature_bound));
     take_geometry(s, g.normal, g.overlap, curvature, law.elastic);
     const Vec3 half_line = 0.5 * (p.position[j] - p.position[i]);
+    s.motion_budget = motion_budget(parameters, std::min(p.bounding_radius[i], p.bounding_radius[j]), g.overlap,
+                                    (g.hessian1 + g.hessian2).norm());
     s.point = 0.5 * (g.arm1 + g.arm2);
     s.weight = contact_weight(p.weight[i], p.weight[j], 2. * half_line, half_line + s.point);
     s.reduced_mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
@@ -143,8 +146,7 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
 
     const Vec3 half_line = 0.5 * (p.position[j] - p.position[i]);
     const double radius = std::min(p.bounding_radius[i], p.bounding_radius[j]);
-    const ContactMotion motion{parameters.motion_budget * radius,
-                               time_step * radius * (p.angular_velocity[i].norm() + p.angular_velocity[j].norm()),
+    const ContactMotion motion{time_step * radius * (p.angular_velocity[i].norm() + p.angular_velocity[j].norm()),
                                0.5 * time_step * (p.angular_velocity[i] + p.angular_velocity[j])};
     const auto displacement_at = [&](const ContactState &s) -> Vec3
     {

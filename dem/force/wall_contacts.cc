@@ -25,6 +25,7 @@ void locate(const Particles &p, const std::int32_t i, const PlaneWall &wall, Con
   {
     const CurvatureBounds bounds = curvature_bounds(p.shape[i], parameters.curvature_bound);
     take_geometry(s, normal, overlap, relative_curvature(normal, g.hessian, bounds), law.elastic);
+    s.motion_budget = motion_budget(parameters, p.bounding_radius[i], overlap, g.hessian.norm());
     s.point = g.arm - 0.5 * overlap * normal;
     s.weight = p.weight[i];
     s.reduced_mass = p.mass[i]; // the wall is infinitely heavy
@@ -110,8 +111,7 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
       continue;
 
     const Vec3 &omega = p.angular_velocity[i];
-    const ContactMotion motion{parameters.motion_budget * p.bounding_radius[i],
-                               time_step * p.bounding_radius[i] * omega.norm(), 0.5 * time_step * omega};
+    const ContactMotion motion{time_step * p.bounding_radius[i] * omega.norm(), 0.5 * time_step * omega};
     const auto displacement_at = [&](const ContactState &s) -> Vec3
     { return time_step * (plane.velocity - p.velocity[i] - omega.cross(s.point)); };
     const auto locate_wall = [&](ContactState &s)

@@ -101,6 +101,7 @@ void visit_scalars(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/hidden/verlet_distance", h.verlet_distance);
   visit("dem/hidden/largest_square_motion", h.largest_square_motion);
   visit("dem/hidden/start_potential", h.start_potential);
+  visit("dem/hidden/removed_wall_work", h.removed_wall_work);
   visit("dem/n_steps", s.n_steps);
   visit("dem/n_rebuilds", s.n_rebuilds);
   visit("dem/pairs/n_undecided", s.pairs.n_undecided);

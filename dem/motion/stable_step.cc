@@ -127,18 +127,19 @@ double stable_time_step(const Particles &particles, const PairContacts &pairs, c
   constexpr int n_rounds = 3, n_iterations = 40;
   const Operator op(particles, pairs, pair_law, walls, wall_law);
 
-  // A fixed start without symmetry, so that no mode is missed and the result repeats.
-  Motion x{std::vector<Vec3>(particles.size()), std::vector<Vec3>(particles.size())};
+  // A fixed start without symmetry and without zeros, so that no mode is missed and the result repeats.
+  Motion start{std::vector<Vec3>(particles.size()), std::vector<Vec3>(particles.size())};
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
     const double phase = 0.7 * static_cast<double>(particles.id[i]);
-    x.translation[i] = Vec3(std::sin(phase), std::sin(1.3 * phase + 1.), std::sin(1.7 * phase + 2.));
-    x.rotation[i] = Vec3(std::sin(1.9 * phase), std::sin(2.3 * phase + 1.), std::sin(2.9 * phase + 2.)) /
-                    particles.bounding_radius[i];
+    start.translation[i] = Vec3(std::sin(phase + 3.), std::sin(1.3 * phase + 1.), std::sin(1.7 * phase + 2.));
+    start.rotation[i] = Vec3(std::sin(1.9 * phase + 4.), std::sin(2.3 * phase + 1.), std::sin(2.9 * phase + 2.)) /
+                        particles.bounding_radius[i];
   }
   double step = guess;
   for (int round = 0; round < n_rounds; ++round)
   {
+    Motion x = start; // anew: another mode may limit another step
     double stiff = 0., damped = 0.;
     for (int i = 0; i < n_iterations; ++i)
     {

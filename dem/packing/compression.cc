@@ -42,6 +42,22 @@ Vec3 wall_pressure(const std::vector<PlaneWall> &walls)
   return pressure;
 }
 
+namespace
+{
+
+/// Sum of the normal stiffnesses of each wall's contacts [N/m].
+std::vector<double> wall_stiffness(const Simulation &simulation)
+{
+  std::vector<double> sum(simulation.walls.size(), 0.);
+  const WallContacts &contacts = simulation.wall_contacts;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (contacts.state[k].touching != 0.)
+      sum[contacts.wall[k]] += 1.5 * contacts.state[k].stiffness.normal * std::sqrt(contacts.state[k].overlap);
+  return sum;
+}
+
+} // namespace
+
 void CompressionParameters::validate() const
 {
   require(pressure > 0. && std::isfinite(pressure), "pressure of the compression", pressure, "positive [Pa]");
@@ -51,39 +67,31 @@ void CompressionParameters::validate() const
   require(longest_time > 0. && std::isfinite(longest_time), "longest time of the compression", longest_time, "positive [s]");
 }
 
-Compression::Compression(const CompressionParameters &parameters) : p(parameters)
-{
-  p.validate();
-  rate.fill(p.largest_rate);
-  last_sign.fill(1.);
-}
+Compression::Compression(const CompressionParameters &parameters) : p(parameters) { p.validate(); }
 
 void Compression::step(Simulation &simulation)
 {
   constexpr std::int64_t check_interval = 50; // steps
-  constexpr double recovery = 1.05, reduction = 0.5, smallest_share = 1e-5;
+  constexpr double gain = 0.05;               // share of the miss that the wall's contacts make up in a step
 
   simulation.compute_forces();
+  const double dt = simulation.parameters().time_step;
   const Vec3 pressure = wall_pressure(simulation.walls);
   const Vec3 edges = box_between(simulation.walls).edges();
-  const bool is_check = simulation.n_steps % check_interval == 0;
+  const std::vector<double> stiffness = wall_stiffness(simulation);
   bool pressures_hold = true;
   for (int d = 0; d < 3; ++d)
   {
-    const double miss = (p.pressure - pressure[d]) / p.pressure;
-    const double sign = miss > 0. ? 1. : -1.;
-    if (is_check)
-    {
-      rate[d] = std::clamp(rate[d] * (sign != last_sign[d] ? reduction : recovery), smallest_share * p.largest_rate,
-                           p.largest_rate);
-      last_sign[d] = sign;
-    }
-    pressures_hold = pressures_hold && std::abs(miss) < p.pressure_tolerance;
-    const double speed = 0.5 * edges[d] * rate[d] * std::clamp(miss, -1., 1.);
+    const double area = edges.prod() / edges[d];
+    const double miss = p.pressure - pressure[d];
+    pressures_hold = pressures_hold && std::abs(miss) < p.pressure_tolerance * p.pressure;
+    const double fastest = 0.5 * edges[d] * p.largest_rate;
+    const double shared = std::max(stiffness[2 * d], stiffness[2 * d + 1]) * dt;
+    const double speed = shared > 0. ? std::clamp(gain * miss * area / shared, -fastest, fastest) : fastest;
     simulation.walls[2 * d].velocity = speed * Vec3::Unit(d);
     simulation.walls[2 * d + 1].velocity = -speed * Vec3::Unit(d);
   }
-  if (is_check)
+  if (simulation.n_steps % check_interval == 0)
   {
     unbalance = pressures_hold ? dem::unbalanced_force(simulation) : 1.;
     n_checks_passed = pressures_hold && unbalance < p.force_tolerance ? n_checks_passed + 1. : 0.;

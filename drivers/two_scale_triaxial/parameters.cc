@@ -11,7 +11,7 @@ namespace bergamo::driver
 
 TriaxialParameters::TriaxialParameters()
 {
-  simulation.time_step = 2e-7;
+  simulation.time_step = 1.5e-7;
   continuum.density = 1780.;
 }
 
@@ -43,9 +43,9 @@ void TriaxialParameters::declare(ParameterFile &file)
            Range::non_negative());
   file.add("Grains", "damping ratio", simulation.damping_ratio, "dashpot at the contacts, share of critical damping",
            Range::between(0, 10));
-  file.add("Grains", "motion budget", simulation.contact.motion_budget,
-           "relative motion over the bounding radius after which a contact is searched anew; 0 is every step",
-           Range::between(0, 0.01));
+  file.add("Grains", "overlap tolerance", simulation.contact.overlap_tolerance,
+           "relative error of the overlap that may build up between two searches of a contact; 0 searches every step",
+           Range::between(0, 0.1));
   file.add("Grains", "curvature bound", simulation.contact.curvature_bound,
            "k: radii of curvature at contacts lie in [k r_min, r_max / k], r the half-axes of the grain",
            {.lowest = 0, .highest = 1, .lowest_included = false});
@@ -68,7 +68,7 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Packing", "longest time", compression.longest_time, "simulated, then the compression has failed [s]",
            Range::positive());
   file.add("Packing", "time step", packing_time_step, "during the compression [s]", Range::positive());
-  file.add("Packing", "motion budget", packing_motion_budget, "see Grains/motion budget", Range::between(0, 0.01));
+  file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance", Range::between(0, 0.1));
 
   file.add("Continuum", "Young's modulus", continuum.young_modulus, "[Pa]", Range::positive());
   file.add("Continuum", "Poisson's ratio", continuum.poisson_ratio, "",
@@ -160,7 +160,7 @@ dem::SimulationParameters TriaxialParameters::packing_simulation() const
   dem::SimulationParameters packing = simulation;
   packing.friction = packing_friction;
   packing.time_step = packing_time_step;
-  packing.contact.motion_budget = packing_motion_budget;
+  packing.contact.overlap_tolerance = packing_overlap_tolerance;
   return packing;
 }
 

@@ -44,8 +44,6 @@ void write_packing(const std::filesystem::path &path, const std::string &paramet
   dem::ArchiveWriter archive(path, kind);
   write_common(archive, Stage::packing, parameters);
   dem::write_simulation(archive, grains);
-  archive.write("compression/rate", std::span<const double>(compression.rate));
-  archive.write("compression/last_sign", std::span<const double>(compression.last_sign));
   archive.write("compression/n_checks_passed", compression.n_checks_passed);
   archive.write("compression/unbalance", compression.unbalance);
   archive.commit();
@@ -91,8 +89,6 @@ std::unique_ptr<dem::Simulation> SnapshotReader::grains(const dem::SimulationPar
 
 void SnapshotReader::read(dem::Compression &compression) const
 {
-  archive.read_into("compression/rate", std::span<double>(compression.rate));
-  archive.read_into("compression/last_sign", std::span<double>(compression.last_sign));
   compression.n_checks_passed = archive.read_double("compression/n_checks_passed");
   compression.unbalance = archive.read_double("compression/unbalance");
 }

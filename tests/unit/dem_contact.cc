@@ -32,7 +32,8 @@ class RandomPairs
 public:
   RandomPairs(const int seed, const double smallest_exponent, const double largest_exponent)
       : generator(seed), exponent(smallest_exponent, largest_exponent)
-  {}
+  {
+  }
 
   Superquadric shape()
   {
@@ -72,7 +73,7 @@ constexpr double degree = pi / 180.;
 
 struct Series
 {
-  int n = 0, undecided = 0, wrong = 0, other_minimum = 0;
+  int n = 0, undecided = 0, wrong = 0, other_minimum = 0, higher_minimum = 0;
   double evaluations = 0., at_once = 0., overlap = 0., points = 0., direction = 0.;
   double worst_overlap = 0.;
 };
@@ -103,7 +104,7 @@ Series gap_series(RandomPairs random)
 }
 
 /// Overlaps uniform in (0, 1.75e-3). The made common normal is stationary but need not be the global minimum of phi:
-/// a lower phi is right as long as it is proven by its direction, a higher one is wrong.
+/// a lower phi is right as long as it is proven by its direction, a higher one is another, local minimum.
 Series overlap_series(RandomPairs random)
 {
   Series s;
@@ -119,14 +120,14 @@ Series overlap_series(RandomPairs random)
     s.undecided += g.status == ContactStatus::undecided;
     s.evaluations += g.n_evaluations;
     const bool is_proven = std::abs(phi(a, b, g.normal) - g.overlap) < 1e-14;
-    // The search ends at a slope below 1e-10 half-axes (at most 3): phi is above the minimum by slope times angle at most.
-    const double angle = (g.normal - c).norm();
-    s.wrong += !is_proven || g.overlap > overlap + 1e-14 + 3e-10 * angle;
-    if (g.overlap < overlap - 1e-9)
-    {
+    s.wrong += !is_proven || (g.status == ContactStatus::touching) != (g.overlap > 0.);
+    // The search ends at a slope below 1e-10 half-axes, and the minimum is quadratic: 1e-13 is far above its error.
+    if (g.overlap > overlap + 1e-13)
+      ++s.higher_minimum;
+    else if (g.overlap < overlap - 1e-9)
       ++s.other_minimum;
+    if (std::abs(g.overlap - overlap) > 1e-9)
       continue;
-    }
     ++n_compared;
     const double error = std::abs(g.overlap - overlap) / overlap;
     s.overlap += error;
@@ -178,28 +179,34 @@ double distance_to_surface(const Superquadric &body, const Vec3 &point)
 
 TEST_CASE("random pairs made backwards are all decided, and rightly")
 {
-  // Bounds: a tenth of the mean errors of Wellmann, table 3.1 (overlap 2.34, 2.40, 32.1 e-6; points 4.34, 4.40, 37.2 e-8;
-  // direction 4.21, 5.05, 18.2 e-3 degrees).
+  // Bounds: a tenth of the mean errors of Wellmann, table 3.1 (overlap 2.34, 2.40, 32.1 e-6; points 4.34, 4.40, 37.2
+  // e-8; direction 4.21, 5.05, 18.2 e-3 degrees).
   struct Class
   {
     double low, high, overlap, points, direction;
   };
-  const Class classes[3] = {{1., 1., 2.3e-7, 4.3e-9, 4.2e-4}, {0.7, 1.3, 2.4e-7, 4.4e-9, 5e-4}, {0.3, 1.7, 3.2e-6, 3.7e-8, 1.8e-3}};
-  std::printf("class  series    pairs undecided wrong evaluations  at once  other min  |delta|/delta   worst     points   degrees\n");
+  const Class classes[3] = {
+      {1., 1., 2.3e-7, 4.3e-9, 4.2e-4}, {0.7, 1.3, 2.4e-7, 4.4e-9, 5e-4}, {0.3, 1.7, 3.2e-6, 3.7e-8, 1.8e-3}};
+  std::printf("class  series    pairs undecided wrong evaluations  at once  lower higher  |delta|/delta   worst     "
+              "points   degrees\n");
   for (int k = 0; k < 3; ++k)
   {
     const Series gaps = gap_series({k + 1, classes[k].low, classes[k].high});
-    std::printf("%5d  gaps     %6d %9d %5d %11.2f %7.1f%%            gap found/made %.3f\n", k + 1, gaps.n, gaps.undecided,
-                gaps.wrong, gaps.evaluations / gaps.n, 100. * gaps.at_once / gaps.n, gaps.overlap / gaps.n);
+    std::printf("%5d  gaps     %6d %9d %5d %11.2f %7.1f%%            gap found/made %.3f\n", k + 1, gaps.n,
+                gaps.undecided, gaps.wrong, gaps.evaluations / gaps.n, 100. * gaps.at_once / gaps.n,
+                gaps.overlap / gaps.n);
     CHECK(gaps.undecided == 0);
     CHECK(gaps.wrong == 0);
 
     const Series overlaps = overlap_series({k + 11, classes[k].low, classes[k].high});
-    std::printf("%5d  overlaps %6d %9d %5d %11.2f           %10d  %12.2e %9.1e %9.1e %9.1e\n", k + 1, overlaps.n,
+    std::printf("%5d  overlaps %6d %9d %5d %11.2f           %6d %6d  %12.2e %9.1e %9.1e %9.1e\n", k + 1, overlaps.n,
                 overlaps.undecided, overlaps.wrong, overlaps.evaluations / overlaps.n, overlaps.other_minimum,
-                overlaps.overlap, overlaps.worst_overlap, overlaps.points, overlaps.direction);
+                overlaps.higher_minimum, overlaps.overlap, overlaps.worst_overlap, overlaps.points, overlaps.direction);
     CHECK(overlaps.undecided == 0);
     CHECK(overlaps.wrong == 0);
+    // No local minimum for ellipsoids and near them. Where an edge's radius of curvature is no larger than the overlap
+    // (class 3) two minima may lie close together; the dissertation lost 9219 of 10^6 pairs there: a tenth of that.
+    CHECK(overlaps.higher_minimum <= (k < 2 ? 0. : 9.2e-4 * n_pairs));
     CHECK(overlaps.overlap < classes[k].overlap);
     CHECK(overlaps.points < classes[k].points);
     CHECK(overlaps.direction < classes[k].direction);
@@ -238,7 +245,8 @@ TEST_CASE("a contact's points, overlap and normal agree with one another")
   RandomPairs random(5, 0.3, 1.7);
   for (int i = 0; i < 2000; ++i)
   {
-    Grain body1{random.shape(), random.direction(), random.orientation()}, body2{random.shape(), Vec3::Zero(), random.orientation()};
+    Grain body1{random.shape(), random.direction(), random.orientation()},
+        body2{random.shape(), Vec3::Zero(), random.orientation()};
     place(body1, body2, random.direction(), random.uniform(0., 1e-2));
     const ContactGeometry g = find_contact(body1.pose(), body2.pose());
     if (g.status != ContactStatus::touching)
@@ -262,13 +270,15 @@ TEST_CASE("a contact does not depend on the frame")
     RandomPairs random(7, low, high);
     for (int i = 0; i < 1000; ++i)
     {
-      Grain body1{random.shape(), Vec3::Zero(), random.orientation()}, body2{random.shape(), Vec3::Zero(), random.orientation()};
+      Grain body1{random.shape(), Vec3::Zero(), random.orientation()},
+          body2{random.shape(), Vec3::Zero(), random.orientation()};
       place(body1, body2, random.direction(), random.uniform(-1e-2, 1.75e-3));
       const ContactGeometry g = find_contact(body1.pose(), body2.pose());
       const Quaternion turn = random.orientation();
       const Vec3 shift = 3. * random.direction();
-      const auto moved = [&](const Grain &body)
-      { return Grain{body.shape, turn * body.position + shift, turn * body.orientation}; };
+      const auto moved = [&](const Grain &body) {
+        return Grain{body.shape, turn * body.position + shift, turn * body.orientation};
+      };
       const ContactGeometry m = find_contact(moved(body1).pose(), moved(body2).pose());
       CHECK(m.status == g.status);
       if (g.status != ContactStatus::touching || m.status != ContactStatus::touching)
@@ -285,7 +295,8 @@ TEST_CASE("exchanging the bodies turns the normal")
   RandomPairs random(9, 0.3, 1.7);
   for (int i = 0; i < 2000; ++i)
   {
-    Grain body1{random.shape(), Vec3::Zero(), random.orientation()}, body2{random.shape(), Vec3::Zero(), random.orientation()};
+    Grain body1{random.shape(), Vec3::Zero(), random.orientation()},
+        body2{random.shape(), Vec3::Zero(), random.orientation()};
     place(body1, body2, random.direction(), random.uniform(-1e-2, 1.75e-3));
     const ContactGeometry g = find_contact(body1.pose(), body2.pose()), e = find_contact(body2.pose(), body1.pose());
     CHECK(e.status == g.status);
@@ -351,6 +362,37 @@ TEST_CASE("aligned faces of box-like grains")
   }
 }
 
+TEST_CASE("box-like grains face to face, shifted and turned in space, are decided")
+{
+  // The direction across the faces gives phi = 1e-3, so the overlap found is no larger (rounding 1e-14, solver 5e-12).
+  // Near it phi has a kink, where Newton's step is too long by 1/(q - 1) = 2/eps - 1: 39 for an exponent of 0.05.
+  for (const double eps : {0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8})
+    for (const bool is_turned : {false, true})
+    {
+      RandomPairs random(41, eps, eps);
+      int n_undecided = 0, n_wrong = 0;
+      double n_evaluations = 0.;
+      constexpr int n = 300;
+      for (int i = 0; i < n; ++i)
+      {
+        const Superquadric box{{1., 1.5, 0.8}, eps, eps};
+        const double overlap = 1e-3;
+        const Quaternion turn = random.orientation();
+        const Quaternion spin(Eigen::AngleAxisd(is_turned ? random.uniform(-pi, pi) : 0., Vec3::UnitZ()));
+        const Vec3 shift(random.uniform(-0.8, 0.8), random.uniform(-1.2, 1.2), 1.6 - overlap);
+        const ContactGeometry g =
+            find_contact(Grain{box, Vec3::Zero(), turn}.pose(), Grain{box, turn * shift, turn * spin}.pose());
+        n_undecided += g.status == ContactStatus::undecided;
+        n_wrong += g.overlap > overlap + 5e-12;
+        n_evaluations += g.n_evaluations;
+      }
+      CAPTURE(eps, is_turned);
+      CHECK(n_undecided == 0);
+      CHECK(n_wrong == 0);
+      CHECK(n_evaluations < 150. * n);
+    }
+}
+
 TEST_CASE("coaxial stacks, turned about their axis and in space")
 {
   // Bodies of revolution or not: on a common axis of symmetry through both poles c is that axis.
@@ -394,7 +436,8 @@ TEST_CASE("grains of ten times the size")
       body2.shape.half_axes *= 0.1;
       const double overlap = random.uniform(-2.5e-2, 1.75e-4);
       place(body1, body2, random.direction(), overlap);
-      const ContactGeometry g = i % 2 ? find_contact(body1.pose(), body2.pose()) : find_contact(body2.pose(), body1.pose());
+      const ContactGeometry g =
+          i % 2 ? find_contact(body1.pose(), body2.pose()) : find_contact(body2.pose(), body1.pose());
       n_undecided += g.status == ContactStatus::undecided;
       n_wrong += g.overlap > overlap + 1e-14 && overlap > 0.;
       n_wrong += g.status == ContactStatus::touching && overlap < 0.;
@@ -418,7 +461,8 @@ TEST_CASE("the gap of a separated pair is a lower bound of the distance")
   std::vector<Vec3> points1, points2;
   for (int i = 0; i < 40; ++i)
   {
-    Grain body1{random.shape(), random.direction(), random.orientation()}, body2{random.shape(), Vec3::Zero(), random.orientation()};
+    Grain body1{random.shape(), random.direction(), random.orientation()},
+        body2{random.shape(), Vec3::Zero(), random.orientation()};
     const double gap = random.uniform(0., 0.05);
     place(body1, body2, random.direction(), -gap);
     const ContactGeometry g = find_contact(body1.pose(), body2.pose());
@@ -429,7 +473,8 @@ TEST_CASE("the gap of a separated pair is a lower bound of the distance")
       points.clear();
       for (int j = -30; j <= 30; ++j)
         for (int k = -30; k < 30; ++k)
-          points.push_back(body.position + body.orientation * surface_point(body.shape, 0.5 * pi * j / 30, pi * k / 30));
+          points.push_back(body.position +
+                           body.orientation * surface_point(body.shape, 0.5 * pi * j / 30, pi * k / 30));
     };
     sample(body1, points1);
     sample(body2, points2);
@@ -453,12 +498,18 @@ TEST_CASE("a warm update equals the cold search along rolling, spinning and slid
   // The pair is made anew in every step for a moving common normal c and moving orientations, with an overlap that
   // swings through zero: contact is lost and regained. Overlaps agree with the made one to rounding (the minimum is
   // stationary), for exponents near one, where it is the only minimum nearby.
-  enum Motion { rolling, spinning, sliding };
+  enum Motion
+  {
+    rolling,
+    spinning,
+    sliding
+  };
   for (const Motion motion : {rolling, spinning, sliding})
     for (int run = 0; run < 12; ++run)
     {
       RandomPairs random(31 + run, 0.6, 1.2);
-      Grain body1{random.shape(), Vec3::Zero(), random.orientation()}, body2{random.shape(), Vec3::Zero(), random.orientation()};
+      Grain body1{random.shape(), Vec3::Zero(), random.orientation()},
+          body2{random.shape(), Vec3::Zero(), random.orientation()};
       Vec3 c = random.direction();
       const Vec3 axis = tangent_frame(c).col(0);
       Vec3 guess = Vec3::Zero();

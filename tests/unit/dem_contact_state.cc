@@ -152,7 +152,8 @@ TEST_CASE("the tangential force obeys Coulomb's limit and slides along the motio
           CHECK(contact.s.normal_force >= 0.);
           CHECK(contact.s.tangential_force.norm() <= 0.3 * contact.s.normal_force * (1. + 1e-15));
           CHECK(std::abs(contact.s.tangential_force.dot(contact.s.normal)) <= 1e-15 * contact.s.normal_force);
-          CHECK((contact.force - (contact.s.tangential_force - contact.s.normal_force * contact.s.normal)).norm() == 0.);
+          CHECK((contact.force - (contact.s.tangential_force - contact.s.normal_force * contact.s.normal)).norm() ==
+                0.);
         }
     }
   Driven contact(0.3, 0.);
@@ -217,7 +218,8 @@ TEST_CASE("a dashpot loses 2 zeta sqrt(k m) v^2 a second, and never pulls")
     contact.move({0., 0., -(d1 - d0) / n});
     contact.s.viscous_loss = 0.;
     follow(contact, {{0., 0., -d0}, {0., 0., -d1}}, n);
-    const double expected = 2. * 0.4 * speed * std::sqrt(1.5 * 1e9 * 1e-6) * 0.8 * (std::pow(d1, 1.25) - std::pow(d0, 1.25));
+    const double expected =
+        2. * 0.4 * speed * std::sqrt(1.5 * 1e9 * 1e-6) * 0.8 * (std::pow(d1, 1.25) - std::pow(d0, 1.25));
     error[i] = std::abs(contact.s.viscous_loss / expected - 1.);
   }
   CHECK(error[1] < 1e-3);
@@ -233,8 +235,8 @@ TEST_CASE("a dashpot loses 2 zeta sqrt(k m) v^2 a second, and never pulls")
 
 TEST_CASE("a contact that turns takes its tangential force along")
 {
-  // Magnitude kept, in the new tangent plane; a rigid rotation of everything by small steps turns the force rigidly with
-  // an error of second order in the step (projection and spin are of first order each): halved steps, halved sum.
+  // Magnitude kept, in the new tangent plane; a rigid rotation of everything by small steps turns the force rigidly
+  // with an error of second order in the step (projection and spin are of first order each): halved steps, halved sum.
   const ElasticPair elastic{1e9, 2e-9, 4e-10};
   double error[2];
   for (int i = 0; i < 2; ++i)

@@ -69,10 +69,14 @@ HertzMindlin direct(const double a, const double b, const double kappa, const do
 {
   const double semi_axis = std::sqrt(d / (a * k));
   return {2. / 3. * pi * kappa * std::sqrt(e / (k * k * k * (a + b))) * pair.effective_modulus,
-          pi * semi_axis / (k * pair.lambda1 - bm * pair.lambda2), pi * semi_axis / (k * pair.lambda1 - d * pair.lambda2)};
+          pi * semi_axis / (k * pair.lambda1 - bm * pair.lambda2),
+          pi * semi_axis / (k * pair.lambda1 - d * pair.lambda2)};
 }
 
-double relative(const double value, const double expected) { return std::abs(value / expected - 1.); }
+double relative(const double value, const double expected)
+{
+  return std::abs(value / expected - 1.);
+}
 
 /// d p / d n of an ellipsoid's surface at the end of half-axis z turned into the direction z: radii x^2/z and y^2/z.
 Mat3 tip_hessian(const double x, const double y, const double z, const double angle)
@@ -89,8 +93,8 @@ const Material soft{60e9, 0.3, 2650.}, hard{200e9, 0.15, 7800.};
 
 TEST_CASE("the reference integrals agree with libraries where those are accurate")
 {
-  // Functions of the modulus e lose a digit for each in 1 - e^2 = 1/kappa^2: 1e-13 for kappa <= 30. Boost's E is good to
-  // rounding; libstdc++'s stops its series at about 1e-12.
+  // Functions of the modulus e lose a digit for each in 1 - e^2 = 1/kappa^2: 1e-13 for kappa <= 30. Boost's E is good
+  // to rounding; libstdc++'s stops its series at about 1e-12.
   for (double kappa = 1.2; kappa <= 30.; kappa *= 1.3)
   {
     const Integrals i(kappa);
@@ -108,15 +112,17 @@ TEST_CASE("the reference integrals agree with libraries where those are accurate
 
 TEST_CASE("the table gives the force and the stiffnesses of the elliptic integrals")
 {
-  // The documented bound: 1e-8 for the normal force, 1e-7 for the tangential stiffness, over b/a in [1, 1e10]. The table's
-  // cubic interpolation with steps of 0.011 in log(b/a) errs by (3/128) 0.011^4 f'''' = 4e-10 f''''.
+  // The documented bound: 1e-8 for the normal force, 1e-7 for the tangential stiffness, over b/a in [1, 1e10]. The
+  // table's cubic interpolation with steps of 0.011 in log(b/a) errs by (3/128) 0.011^4 f'''' = 4e-10 f''''.
   const ElasticPair pair = elastic_pair(soft, hard);
   double worst_normal = 0., worst_major = 0., worst_minor = 0., worst_standard = 0.;
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> log_ratio(0., std::log(1e10)), small(0., 0.1), scale(-12., 12.);
   for (int i = 0; i < 6000; ++i)
   {
-    const double ratio = i == 0 ? 1. + 1e-12 : i == 1 ? 1e10 * (1. - 1e-12) : std::exp(i % 4 ? log_ratio(generator) : small(generator));
+    const double ratio = i == 0   ? 1. + 1e-12
+                         : i == 1 ? 1e10 * (1. - 1e-12)
+                                  : std::exp(i % 4 ? log_ratio(generator) : small(generator));
     const double a = std::exp(scale(generator)), b = a * ratio;
     const double kappa = axis_ratio(ratio);
     const Integrals s(kappa);
@@ -126,7 +132,8 @@ TEST_CASE("the table gives the force and the stiffnesses of the elliptic integra
     worst_minor = std::max(worst_minor, relative(found.tangential_minor, expected.tangential_minor));
     if (kappa > 1.1 && kappa < 30.)
     {
-      const double e2 = 1. - 1. / (kappa * kappa), k = std::comp_ellint_1(std::sqrt(e2)), e = std::comp_ellint_2(std::sqrt(e2));
+      const double e2 = 1. - 1. / (kappa * kappa), k = std::comp_ellint_1(std::sqrt(e2)),
+                   e = std::comp_ellint_2(std::sqrt(e2));
       const HertzMindlin standard = direct(a, b, kappa, k, e, (k - e) / e2, (e - (1. - e2) * k) / e2, pair);
       worst_standard = std::max({worst_standard, relative(found.normal, standard.normal),
                                  relative(found.tangential_major, standard.tangential_major)});
@@ -206,12 +213,12 @@ TEST_CASE("relative curvature of crossed ellipsoids in closed form")
     CHECK(std::abs(c.major_axis[2]) < 1e-15);
   }
   // Two long rods, crossed at right angles: circular contact; parallel: a line, b/a = ratio of the curvatures.
-  const RelativeCurvature crossed = relative_curvature(Vec3::UnitZ(), tip_hessian(10., 1., 1., 0.), wide,
-                                                       tip_hessian(10., 1., 1., 0.5 * pi), wide);
+  const RelativeCurvature crossed =
+      relative_curvature(Vec3::UnitZ(), tip_hessian(10., 1., 1., 0.), wide, tip_hessian(10., 1., 1., 0.5 * pi), wide);
   CHECK(relative(crossed.b, crossed.a) < 1e-14);
   CHECK(relative(crossed.a, 0.5 * (1. + 0.01)) < 1e-14);
-  const RelativeCurvature parallel = relative_curvature(Vec3::UnitZ(), tip_hessian(10., 1., 1., 0.), wide,
-                                                        tip_hessian(10., 1., 1., 0.), wide);
+  const RelativeCurvature parallel =
+      relative_curvature(Vec3::UnitZ(), tip_hessian(10., 1., 1., 0.), wide, tip_hessian(10., 1., 1., 0.), wide);
   CHECK(relative(parallel.a, 0.01) < 1e-13);
   CHECK(relative(parallel.b, 1.) < 1e-13);
   CHECK(std::abs(std::abs(parallel.major_axis[0]) - 1.) < 1e-14);
@@ -235,8 +242,8 @@ TEST_CASE("relative curvature does not depend on the frame or on the order of th
       CHECK(std::abs(std::abs(other.major_axis.dot(one.major_axis)) - 1.) < 1e-9);
 
     const Mat3 turn = Quaternion(Eigen::Vector4d::Random()).normalized().toRotationMatrix();
-    const RelativeCurvature turned = relative_curvature(turn.col(2), turn * h1 * turn.transpose(), wide,
-                                                        turn * h2 * turn.transpose(), wide);
+    const RelativeCurvature turned =
+        relative_curvature(turn.col(2), turn * h1 * turn.transpose(), wide, turn * h2 * turn.transpose(), wide);
     CHECK(relative(turned.a, one.a) < 1e-11);
     CHECK(relative(turned.b, one.b) < 1e-11);
     if (one.b > 1.001 * one.a)

@@ -28,7 +28,8 @@ Cloud random_cloud(const int n, const Vec3 &extent, const double smallest, const
   Cloud cloud;
   for (int i = 0; i < n; ++i)
   {
-    cloud.positions.push_back(extent.cwiseProduct(Vec3(unit(generator), unit(generator), unit(generator))) - 0.3 * extent);
+    cloud.positions.push_back(extent.cwiseProduct(Vec3(unit(generator), unit(generator), unit(generator))) -
+                              0.3 * extent);
     cloud.radii.push_back(radius(generator));
   }
   return cloud;
@@ -102,7 +103,7 @@ TEST_CASE("the Verlet list holds the pairs of a search over all pairs")
   {
     check_list(random_cloud(400, {10., 8., 6.}, 0.2, 0.5, seed), 0.05);
     check_list(random_cloud(300, {10., 10., 10.}, 0.05, 2., seed), 0.3); // wide range of sizes
-    check_list(random_cloud(200, {5., 5., 5.}, 0.3, 0.3, seed), 0.);    // no Verlet distance
+    check_list(random_cloud(200, {5., 5., 5.}, 0.3, 0.3, seed), 0.);     // no Verlet distance
   }
 }
 
@@ -112,13 +113,14 @@ TEST_CASE("the Verlet list of degenerate sets")
   check_list(random_cloud(1, {1., 1., 1.}, 0.3, 0.5, 1), 0.1);
   check_list({{{0., 0., 0.}, {1., 0., 0.}}, {0.5, 0.4}}, 0.05); // apart
   check_list({{{0., 0., 0.}, {1., 0., 0.}}, {0.5, 0.4}}, 0.2);  // near
-  CHECK(build_verlet_list(std::vector<Vec3>{{0., 0., 0.}, {1., 0., 0.}}, std::vector<double>{0.5, 0.4}, 0.2).size() == 1);
-  check_list(random_cloud(100, {0.1, 0.1, 0.1}, 0.3, 0.5, 2), 0.1);       // all in one cell
+  CHECK(build_verlet_list(std::vector<Vec3>{{0., 0., 0.}, {1., 0., 0.}}, std::vector<double>{0.5, 0.4}, 0.2).size() ==
+        1);
+  check_list(random_cloud(100, {0.1, 0.1, 0.1}, 0.3, 0.5, 2), 0.1);                         // all in one cell
   check_list({std::vector<Vec3>(20, Vec3(1., 2., 3.)), std::vector<double>(20, 0.1)}, 0.1); // all in one place
-  check_list(random_cloud(300, {1000., 1., 1.}, 0.2, 0.5, 3), 0.1);       // a long thread
-  check_list(random_cloud(300, {1e9, 1., 1e-3}, 0.2, 0.5, 4), 0.1);       // far more cells than grains
-  check_list(random_cloud(300, {1e7, 1e7, 1e7}, 0.2, 0.5, 5), 0.1);       // a gas
-  check_list(random_cloud(300, {10., 10., 0.}, 0.2, 0.5, 6), 0.1);        // a layer
+  check_list(random_cloud(300, {1000., 1., 1.}, 0.2, 0.5, 3), 0.1);                         // a long thread
+  check_list(random_cloud(300, {1e9, 1., 1e-3}, 0.2, 0.5, 4), 0.1); // far more cells than grains
+  check_list(random_cloud(300, {1e7, 1e7, 1e7}, 0.2, 0.5, 5), 0.1); // a gas
+  check_list(random_cloud(300, {10., 10., 0.}, 0.2, 0.5, 6), 0.1);  // a layer
   Cloud two_heaps = random_cloud(100, {3., 3., 3.}, 0.2, 0.5, 7);
   const Cloud far = random_cloud(100, {3., 3., 3.}, 0.2, 0.5, 8);
   for (std::size_t i = 0; i < far.positions.size(); ++i)
@@ -177,7 +179,8 @@ TEST_CASE("the spatial order is a permutation that goes cell by cell")
       CHECK(order[inverse[i]] == i);
     const CellGrid grid(cloud.positions, 1.);
     CHECK(std::is_sorted(order.begin(), order.end(),
-                         [&](auto i, auto j) { return std::pair(grid.cell_of[i], i) < std::pair(grid.cell_of[j], j); }));
+                         [&](auto i, auto j)
+                         { return std::pair(grid.cell_of[i], i) < std::pair(grid.cell_of[j], j); }));
     std::sort(order.begin(), order.end());
     std::vector<std::int32_t> all(n);
     std::iota(all.begin(), all.end(), 0);

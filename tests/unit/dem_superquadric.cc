@@ -16,7 +16,8 @@ namespace
 
 constexpr double pi = std::numbers::pi;
 
-/// int_0^1 f(u) du by the tanh-sinh rule, which takes end points where f has infinite slope; f gets u and 1 - u, both exact.
+/// int_0^1 f(u) du by the tanh-sinh rule, which takes end points where f has infinite slope; f gets u and 1 - u, both
+/// exact.
 template <class F>
 double integrate(F &&f)
 {
@@ -87,7 +88,8 @@ TEST_CASE("volume and inertia of an ellipsoid")
 TEST_CASE("volume and inertia tend to those of box, cylinder and octahedron")
 {
   const Vec3 r(0.4, 1.1, 0.8), r2 = r.cwiseAbs2();
-  const auto check_limit = [&](const double eps1, const double eps2, const double v, const Vec3 &inertia, const double tolerance)
+  const auto check_limit =
+      [&](const double eps1, const double eps2, const double v, const Vec3 &inertia, const double tolerance)
   {
     const Superquadric s{r, eps1, eps2};
     CAPTURE(eps1, eps2);
@@ -95,9 +97,9 @@ TEST_CASE("volume and inertia tend to those of box, cylinder and octahedron")
     for (int d = 0; d < 3; ++d)
       check_relative(inertia_per_density(s)[d], inertia[d], tolerance);
   };
-  // Box: V = 8abc, I1 = V (b^2 + c^2)/3. Rounding the edges removes volume of second order in eps: int_0^1 (1-u^p)^(1/p) du
-  // = 1 - zeta(2) eps^2/4 + ..., with eps^2 = 4/p^2; in all V = 8abc (1 - 3 zeta(2) eps^2/4 + ...) and for the moments,
-  // whose weight sits at the edges, less than twenty times eps^2.
+  // Box: V = 8abc, I1 = V (b^2 + c^2)/3. Rounding the edges removes volume of second order in eps: int_0^1
+  // (1-u^p)^(1/p) du = 1 - zeta(2) eps^2/4 + ..., with eps^2 = 4/p^2; in all V = 8abc (1 - 3 zeta(2) eps^2/4 + ...) and
+  // for the moments, whose weight sits at the edges, less than twenty times eps^2.
   const double box = 8. * r.prod();
   for (const double eps : {0.1, 0.03, 0.01, 0.003})
   {
@@ -107,13 +109,13 @@ TEST_CASE("volume and inertia tend to those of box, cylinder and octahedron")
   // Elliptic cylinder: V = 2 pi abc, I1 = V (b^2/4 + c^2/3), I3 = V (a^2 + b^2)/4.
   const double cylinder = 2. * pi * r.prod();
   for (const double eps : {0.1, 0.01})
-    check_limit(1., eps, cylinder,
-                cylinder * Vec3(r2[1] / 4 + r2[2] / 3, r2[0] / 4 + r2[2] / 3, (r2[0] + r2[1]) / 4), 20. * eps * eps);
+    check_limit(1., eps, cylinder, cylinder * Vec3(r2[1] / 4 + r2[2] / 3, r2[0] / 4 + r2[2] / 3, (r2[0] + r2[1]) / 4),
+                20. * eps * eps);
   // Octahedron: V = 4/3 abc, I1 = V (b^2 + c^2)/10; the exponents are smooth there, so first order in 2 - eps.
   const double octahedron = 4. / 3. * r.prod();
   for (const double rest : {1e-2, 1e-4, 1e-6})
-    check_limit(2. - rest, 2. - rest, octahedron,
-                octahedron / 10. * Vec3(r2[1] + r2[2], r2[0] + r2[2], r2[0] + r2[1]), 5. * rest);
+    check_limit(2. - rest, 2. - rest, octahedron, octahedron / 10. * Vec3(r2[1] + r2[2], r2[0] + r2[2], r2[0] + r2[1]),
+                5. * rest);
   // Double cone: eps1 = 1, eps2 = 2: V = 2/3 pi abc, I3 = V 3 (a^2 + b^2)/20, I1 = V (3 b^2/20 + c^2/10).
   const double cone = 2. / 3. * pi * r.prod();
   check_limit(1., 2. - 1e-6, cone,
@@ -215,7 +217,8 @@ TEST_CASE("the bounding sphere holds the body and touches it")
         better = false;
         for (const auto &[du, dv] : {std::pair(1., 0.), std::pair(-1., 0.), std::pair(0., 1.), std::pair(0., -1.)})
         {
-          const double u = std::clamp(best_u + du * step, 0., 0.5 * pi), v = std::clamp(best_v + dv * step, 0., 0.5 * pi);
+          const double u = std::clamp(best_u + du * step, 0., 0.5 * pi),
+                       v = std::clamp(best_v + dv * step, 0., 0.5 * pi);
           if (const double d = distance(u, v); d > best)
           {
             best = d;
@@ -241,8 +244,9 @@ TEST_CASE("the bounding sphere holds the body and touches it")
 
 TEST_CASE("impossible superquadrics are refused")
 {
-  const auto refused = [](const Vec3 &half_axes, const double eps1, const double eps2)
-  { CHECK_THROWS_AS((Superquadric{half_axes, eps1, eps2}.validate()), ConfigError); };
+  const auto refused = [](const Vec3 &half_axes, const double eps1, const double eps2) {
+    CHECK_THROWS_AS((Superquadric{half_axes, eps1, eps2}.validate()), ConfigError);
+  };
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   for (const double wrong : {0., -1., nan, infinite})
   {

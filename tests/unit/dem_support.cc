@@ -20,9 +20,15 @@ SupportShape<double> support_shape(const Superquadric &s)
   return {s.half_axes[0], s.half_axes[1], s.half_axes[2], 2. / (2. - s.eps1), 2. / (2. - s.eps2)};
 }
 
-Support<double> support_of(const Superquadric &s, const Vec3 &n) { return support(support_shape(s), n[0], n[1], n[2]); }
+Support<double> support_of(const Superquadric &s, const Vec3 &n)
+{
+  return support(support_shape(s), n[0], n[1], n[2]);
+}
 
-Vec3 gradient(const Support<double> &s) { return {s.x1, s.x2, s.x3}; }
+Vec3 gradient(const Support<double> &s)
+{
+  return {s.x1, s.x2, s.x3};
+}
 
 Mat3 hessian(const Support<double> &s)
 {
@@ -39,7 +45,10 @@ struct RandomBodies
 
   explicit RandomBodies(const int seed) : generator(seed) {}
 
-  Superquadric body() { return {{axis(generator), axis(generator), axis(generator)}, exponent(generator), exponent(generator)}; }
+  Superquadric body()
+  {
+    return {{axis(generator), axis(generator), axis(generator)}, exponent(generator), exponent(generator)};
+  }
   Vec3 direction() { return Vec3(normal(generator), normal(generator), normal(generator)).normalized(); }
 };
 
@@ -99,11 +108,14 @@ TEST_CASE("gradient and Hessian are the derivatives of height and gradient")
     {
       const double step = 4e-3 * std::abs(n[d]) / q;
       g[d] = central_difference([&](const double x)
-                                { return Eigen::Matrix<double, 1, 1>(support_of(body, n + x * Vec3::Unit(d)).h); }, step)[0];
-      h.col(d) = central_difference([&](const double x) { return gradient(support_of(body, n + x * Vec3::Unit(d))); }, step);
+                                { return Eigen::Matrix<double, 1, 1>(support_of(body, n + x * Vec3::Unit(d)).h); },
+                                step)[0];
+      h.col(d) =
+          central_difference([&](const double x) { return gradient(support_of(body, n + x * Vec3::Unit(d))); }, step);
     }
     worst_gradient = std::max(worst_gradient, (g - gradient(s)).norm() / gradient(s).norm());
-    worst_hessian = std::max(worst_hessian, (h - hessian(s)).norm() / std::max(hessian(s).norm(), body.half_axes.minCoeff()));
+    worst_hessian =
+        std::max(worst_hessian, (h - hessian(s)).norm() / std::max(hessian(s).norm(), body.half_axes.minCoeff()));
   }
   CHECK(worst_gradient < 1e-9);
   CHECK(worst_hessian < 1e-9);
@@ -111,7 +123,8 @@ TEST_CASE("gradient and Hessian are the derivatives of height and gradient")
 
 TEST_CASE("H N = 0 and the tangential part is positive semidefinite")
 {
-  // X is homogeneous of degree 0, so its derivative along N vanishes (Euler); h is convex, so no eigenvalue is negative.
+  // X is homogeneous of degree 0, so its derivative along N vanishes (Euler); h is convex, so no eigenvalue is
+  // negative.
   RandomBodies random(4);
   for (int i = 0; i < 5000; ++i)
   {

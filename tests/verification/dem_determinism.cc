@@ -43,7 +43,10 @@ std::uint64_t hash_of(const Simulation &s)
   hash.add(p.id).add(p.position).add(p.orientation).add(p.velocity).add(p.angular_momentum).add(p.angular_velocity);
   hash.add(p.force).add(p.torque).add(p.motion);
   hash.add(s.pairs.list.first).add(s.pairs.list.second).add(s.pairs.state).add(s.pairs.rest_until);
-  hash.add(s.wall_contacts.particle).add(s.wall_contacts.wall).add(s.wall_contacts.state).add(s.wall_contacts.rest_until);
+  hash.add(s.wall_contacts.particle)
+      .add(s.wall_contacts.wall)
+      .add(s.wall_contacts.state)
+      .add(s.wall_contacts.rest_until);
   hash.add(s.walls);
   hash.add(std::vector<double>{s.time, s.pairs.losses.friction, s.pairs.losses.viscous, s.wall_contacts.losses.friction,
                                s.wall_contacts.losses.viscous});
@@ -118,29 +121,48 @@ std::size_t n_touching(const std::vector<ContactState> &states)
 
 TEST_CASE("a packing under compression has the same bits on 1, 2, 3 and 8 threads")
 {
-  constexpr int n_steps = 2000;
-  std::vector<std::uint64_t> hashes;
+  // Steps 0 to 300 from the loose packing, without contacts at first, and 1700 to 2000 of the dense one, whose first
+  // 1700 run on one thread for the sake of time.
+  Simulation dense = loose_packing(soft_parameters());
+  Compression dense_compression(fast_compression());
+  {
+    const Threads threads(1);
+    for (int i = 0; i < 1700; ++i)
+      dense_compression.step(dense);
+  }
+  std::vector<std::uint64_t> loose_hashes, hashes;
   for (const int n : {1, 2, 3, 8})
   {
     const Threads threads(n);
-    Simulation simulation = loose_packing(soft_parameters());
-    Compression compression(fast_compression());
-    for (int i = 0; i < n_steps; ++i)
+    Simulation loose = loose_packing(soft_parameters());
+    Compression loose_compression(fast_compression());
+    for (int i = 0; i < 300; ++i)
+      loose_compression.step(loose);
+    loose_hashes.push_back(hash_of(loose));
+
+    Simulation simulation = dense;
+    Compression compression = dense_compression;
+    for (int i = 0; i < 300; ++i)
       compression.step(simulation);
     hashes.push_back(hash_of(simulation));
+    CHECK(simulation.n_rebuilds > dense.n_rebuilds);
     // The comparison is worth something only if there were grains, contacts and renewed neighbours.
     CHECK(simulation.particles.size() >= 180);
-    CHECK(n_touching(simulation.pairs.state) > 300);
-    CHECK(n_touching(simulation.wall_contacts.state) > 50);
+    CHECK(n_touching(simulation.pairs.state) > 150);
+    CHECK(n_touching(simulation.wall_contacts.state) > 20);
     CHECK(simulation.n_rebuilds > 20);
     CHECK(simulation.pairs.n_undecided == 0);
   }
   for (const std::uint64_t hash : hashes)
     CHECK(hash == hashes.front());
+  for (const std::uint64_t hash : loose_hashes)
+    CHECK(hash == loose_hashes.front());
+  CHECK(hashes.front() != loose_hashes.front());
 }
 
 TEST_CASE("a restart goes on with the same bits")
 {
+  const Threads threads(1); // a team costs more than it gains on 200 grains
   Simulation straight = loose_packing(soft_parameters());
   Compression compression(fast_compression());
   for (int i = 0; i < 1000; ++i)
@@ -153,11 +175,8 @@ TEST_CASE("a restart goes on with the same bits")
   ArchiveWriter writer(folder.path / "snapshot.h5", "restart test");
   write_simulation(writer, straight);
   writer.commit();
-  const auto restarted =
-      read_simulation(ArchiveReader(folder.path / "snapshot.h5", "restart test"), soft_parameters());
+  const auto restarted = read_simulation(ArchiveReader(folder.path / "snapshot.h5", "restart test"), soft_parameters());
   Compression resumed(fast_compression());
-  resumed.rate = compression.rate;
-  resumed.last_sign = compression.last_sign;
   resumed.n_checks_passed = compression.n_checks_passed;
   resumed.unbalance = compression.unbalance;
 
@@ -167,7 +186,7 @@ TEST_CASE("a restart goes on with the same bits")
     compression.step(straight);
     resumed.step(*restarted);
   }
-  CHECK(n_touching(straight.pairs.state) > 300);
+  CHECK(n_touching(straight.pairs.state) > 150);
   CHECK(hash_of(*restarted) == hash_of(straight));
   CHECK(restarted->n_steps == 2000);
   CHECK(restarted->n_rebuilds == straight.n_rebuilds);
@@ -179,7 +198,10 @@ TEST_CASE("a restart goes on with the same bits")
 
 TEST_CASE("sorting and renewing the neighbours keeps every contact's history")
 {
-  Simulation simulation = loose_packing(soft_parameters());
+  const Threads threads(1); // a team costs more than it gains on 200 grains
+  SimulationParameters lazy = soft_parameters();
+  lazy.contact.overlap_tolerance = 0.01; // so that contacts carry some motion and spin since their last search
+  Simulation simulation = loose_packing(lazy);
   Compression compression(fast_compression());
   for (int i = 0; i < 2000; ++i)
     compression.step(simulation);
@@ -204,7 +226,7 @@ TEST_CASE("sorting and renewing the neighbours keeps every contact's history")
   };
 
   const History before = history_of(simulation), walls_before = wall_history_of(simulation);
-  REQUIRE(before.size() > 300);
+  REQUIRE(before.size() > 150);
   Simulation sorted = simulation;
   const auto ids = sorted.particles.id;
   sorted.sort_by_place();
@@ -253,8 +275,6 @@ TEST_CASE("sorting and renewing the neighbours keeps every contact's history")
   double largest = 0.;
   for (const Vec3 &f : simulation.particles.force)
     largest = std::max(largest, f.norm());
-  for (const Superquadric &shape : simulation.particles.shape)
-    REQUIRE(shape.half_axes.minCoeff() > 0.);
   for (std::size_t i = 0; i < simulation.particles.size(); ++i)
   {
     const auto j = sorted.index_of_id[simulation.particles.id[i]];
@@ -267,9 +287,11 @@ TEST_CASE("sorting and renewing the neighbours keeps every contact's history")
 
 TEST_CASE("the Verlet distance changes the work but not the forces")
 {
-  // Lists of different ranges hold the same touching pairs; histories must survive some dozens of renewals. A pair that
-  // left the list and came back starts its search from the centre line instead of its old normal: both find the normal
-  // to 1e-10, so results agree to that times the growth of small differences over 1000 steps of a driven packing.
+  const Threads threads(1); // a team costs more than it gains on 200 grains
+  // Lists of different ranges hold the same touching pairs; histories must survive a hundred renewals. Bits are the
+  // same until a pair that left the list and came back is searched from the centre line instead of its old normal: its
+  // rounding differs, 1e-18 m, and collisions make a tenfold of it some six times in 600 steps. A lost history would
+  // show at 1e-8 m.
   std::vector<Simulation> runs;
   for (const double distance : {0.02, 0.5})
   {
@@ -277,16 +299,17 @@ TEST_CASE("the Verlet distance changes the work but not the forces")
     p.verlet_distance = distance;
     runs.push_back(loose_packing(p));
     Compression compression(fast_compression());
-    for (int i = 0; i < 1000; ++i)
+    for (int i = 0; i < 600; ++i)
       compression.step(runs.back());
   }
   CHECK(runs[0].n_rebuilds > 5 * runs[1].n_rebuilds);
-  CHECK(runs[0].n_rebuilds > 100);
+  CHECK(runs[0].n_rebuilds > 80);
   CHECK(n_touching(runs[0].pairs.state) == n_touching(runs[1].pairs.state));
   CHECK(n_touching(runs[0].pairs.state) > 20);
   for (std::int64_t id = 0; id < static_cast<std::int64_t>(runs[0].particles.size()); ++id)
   {
-    const Vec3 a = runs[0].particles.position[runs[0].index_of_id[id]], b = runs[1].particles.position[runs[1].index_of_id[id]];
+    const Vec3 a = runs[0].particles.position[runs[0].index_of_id[id]],
+               b = runs[1].particles.position[runs[1].index_of_id[id]];
     CHECK((a - b).norm() < 1e-9 * box_edge);
   }
 }

@@ -5,7 +5,9 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <omp.h>
 #include <random>
 #include <vector>
 
@@ -13,6 +15,16 @@ using namespace bergamo::dem;
 
 namespace
 {
+
+/// A team of threads costs more than it gains on one or two grains.
+struct OneThread
+{
+  OneThread() : before(omp_get_max_threads()) { omp_set_num_threads(1); }
+  ~OneThread() { omp_set_num_threads(before); }
+  OneThread(const OneThread &) = delete;
+  OneThread &operator=(const OneThread &) = delete;
+  int before;
+};
 
 constexpr double radius = 1e-3;
 
@@ -22,14 +34,20 @@ SimulationParameters elastic_parameters()
   p.grain = {1e9, 0.25, 2500.};
   p.friction = 0.;
   p.damping_ratio = 0.;
-  p.contact.motion_budget = 0.; // a search in every step
+  p.contact.overlap_tolerance = 0.; // a search in every step
   p.time_step = 1e-8;
   return p;
 }
 
-Superquadric sphere(const double r) { return {Vec3::Constant(r), 1., 1.}; }
+Superquadric sphere(const double r)
+{
+  return {Vec3::Constant(r), 1., 1.};
+}
 
-double effective_modulus(const Material &m) { return m.young_modulus / (2. * (1. - m.poisson_ratio * m.poisson_ratio)); }
+double effective_modulus(const Material &m)
+{
+  return m.young_modulus / (2. * (1. - m.poisson_ratio * m.poisson_ratio));
+}
 
 /// Two grains in ids 0 and 1; the simulation may sort them.
 struct Pair
@@ -113,7 +131,8 @@ Particles oblique(const Superquadric &shape1, const Superquadric &shape2, const 
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vec3(normal(generator), normal(generator), normal(generator)); };
-  const auto turn = [&] { return Quaternion(normal(generator), normal(generator), normal(generator), normal(generator)).normalized(); };
+  const auto turn = [&]
+  { return Quaternion(normal(generator), normal(generator), normal(generator), normal(generator)).normalized(); };
   Particles grains;
   const Vec3 n = vector().normalized();
   grains.add(shape1, 2500., 2e-3 * vector(), turn());
@@ -149,6 +168,7 @@ double order(const std::vector<double> &errors)
 
 TEST_CASE("the force between two pressed spheres is Hertz's")
 {
+  const OneThread one_thread;
   // f = (4/3) E* sqrt(R*) d^(3/2): the overlap is a difference of lengths 1000 times larger, so its relative error is
   // 1e-13 and the force's 1.5 times that; the circle's entry of the ellipse table is exact to 1e-12.
   std::mt19937_64 generator(1);
@@ -177,6 +197,7 @@ TEST_CASE("the force between two pressed spheres is Hertz's")
 
 TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
 {
+  const OneThread one_thread;
   // Force over displacement in one step from rest: 4 G a/(2 - nu), a = sqrt(R* d), in every direction, for sliding and
   // for the rotation of either sphere (displacement omega x arm).
   for (const double nu : {0., 0.25, 0.4})
@@ -220,6 +241,7 @@ TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
 
 TEST_CASE("an undamped impact gives back the speed, at second order in the time step")
 {
+  const OneThread one_thread;
   // Against Hertz's impact: largest overlap and duration; speeds after over before. Leapfrog is of second order; the
   // error depends on where within a step the contact begins, so its root mean square over 16 beginnings is measured.
   const Material m = elastic_parameters().grain;
@@ -270,6 +292,7 @@ TEST_CASE("an undamped impact gives back the speed, at second order in the time 
 
 TEST_CASE("a dashpot lowers the restitution, more where it is stronger, and keeps the momentum")
 {
+  const OneThread one_thread;
   const Material m = elastic_parameters().grain;
   const double v = 0.5;
   const HertzImpact hertz(m, 2. * v);
@@ -301,19 +324,22 @@ TEST_CASE("a dashpot lowers the restitution, more where it is stronger, and keep
     CHECK(e.friction_loss == 0.);
     // Small damping: the loss of one impact to first order in zeta, the dashpot's work along the undamped motion. With
     // x = d/d_max, speed w sqrt(1 - x^2.5) and stiffness (15/8) m (w/d_max)^2 sqrt(x):
-    // 1 - e^2 = 8 zeta sqrt(15/8) int_0^1 x^(1/4) sqrt(1 - x^2.5) dx = 8 zeta sqrt(15/8) (2/5) B(1/2, 3/2), the last pi/2.
+    // 1 - e^2 = 8 zeta sqrt(15/8) int_0^1 x^(1/4) sqrt(1 - x^2.5) dx = 8 zeta sqrt(15/8) (2/5) B(1/2, 3/2), the last
+    // pi/2.
     if (zeta == 0.02)
     {
       const double first_order = zeta * 8. * std::sqrt(1.875) * 0.4 * 0.5 * std::numbers::pi;
-      CHECK(1. - restitution * restitution == Approx(first_order).epsilon(first_order)); // the next order is the first one's square
+      CHECK(1. - restitution * restitution ==
+            Approx(first_order).epsilon(first_order)); // the next order is the first one's square
     }
   }
 }
 
 TEST_CASE("an oblique frictional impact keeps linear and angular momentum about the origin")
 {
-  // Opposite forces at one point: both sums change by rounding alone. Terms m x v of size 1e-3 kg m/s^... are of one size
-  // here, some thousand steps: 1e-12 relative to the sum of the terms' sizes.
+  const OneThread one_thread;
+  // Opposite forces at one point: both sums change by rounding alone. Terms m x v of size 1e-3 kg m/s^... are of one
+  // size here, some thousand steps: 1e-12 relative to the sum of the terms' sizes.
   std::mt19937_64 generator(4);
   for (int run = 0; run < 6; ++run)
   {
@@ -322,7 +348,7 @@ TEST_CASE("an oblique frictional impact keeps linear and angular momentum about 
     p.damping_ratio = run % 3 ? 0.2 : 0.;
     p.time_step = 2e-8;
     if (run >= 4)
-      p.contact.motion_budget = 2e-5;
+      p.contact.overlap_tolerance = 2e-5;
     const bool is_sphere = run < 2;
     Pair pair(p, is_sphere ? oblique(sphere(radius), sphere(0.6 * radius), run)
                            : oblique(grain_shape(generator, 0.6, 1.2), grain_shape(generator, 0.6, 1.2), run));
@@ -340,16 +366,19 @@ TEST_CASE("an oblique frictional impact keeps linear and angular momentum about 
 
 TEST_CASE("the energy balance of colliding grains of any shape closes")
 {
-  // E = kinetic + stored + losses. The losses use the trapezoidal rule with the normal and arms of the step's end, the
-  // motion those of each step: first order in the turning of the contact per step. A stiffness that changes with the
-  // curvature of the place of contact has no potential at all: that part remains for dt -> 0 and is small as overlap
-  // over radius. Balance relative to the energy at the start.
+  const OneThread one_thread;
+  // E = kinetic + stored + losses. What limits it: Hertz's coefficient follows the curvature of the place of contact
+  // and the axes of the ellipse, so that the stored energy changes without any work: the force has no potential. That
+  // part, which no time step can lower, is taken from the contact's states here: energy stored with the new
+  // coefficients and axes less that with the old ones, at the old overlap. The rest is the turning of the normal and
+  // arms within a step, first order in dt: a quarter of the step, a quarter of the error.
   std::mt19937_64 generator(7);
-  double worst = 0.;
+  double worst = 0., sum[2] = {0., 0.};
+  std::printf("collision  changed stiffness  rest at 2e-8 s  at 0.5e-8 s  (of the energy)\n");
   for (int run = 0; run < 8; ++run)
   {
     const Superquadric shape1 = grain_shape(generator, 0.6, 1.2), shape2 = grain_shape(generator, 0.6, 1.2);
-    std::array<double, 2> error{};
+    std::array<double, 2> error{}, changed{};
     for (int fine = 0; fine < 2; ++fine)
     {
       SimulationParameters p = elastic_parameters();
@@ -358,28 +387,45 @@ TEST_CASE("the energy balance of colliding grains of any shape closes")
       p.time_step = fine ? 0.5e-8 : 2e-8;
       Pair pair(p, oblique(shape1, shape2, 20 + run));
       bool met = false;
-      double start = 0.;
+      double start = 0., change = 0.;
       for (int i = 0; i < 200000 && (!met || pair.touches()); ++i)
       {
+        const std::vector<ContactState> before = pair.simulation.pairs.state;
         pair.simulation.compute_forces();
+        if (!before.empty() && before[0].touching != 0. && pair.touches())
+        {
+          const ContactState &now = pair.simulation.pairs.state[0];
+          ContactState turned = before[0];
+          const auto &omega = pair.simulation.particles.angular_velocity;
+          turned.spin = turned.normal.dot(0.5 * p.time_step * (omega[0] + omega[1]));
+          take_geometry(turned, now.normal, turned.overlap, {1., 1., now.major_axis}, elastic_pair(p.grain, p.grain));
+          turned.stiffness = now.stiffness;
+          const ContactEnergy old_energy = stored_energy(before[0]), new_energy = stored_energy(turned);
+          change += new_energy.normal + new_energy.tangential - old_energy.normal - old_energy.tangential;
+        }
         met = met || pair.touches();
         const double balance = pair.simulation.energy().balance();
         if (i == 0)
           start = balance;
-        error[fine] = std::max(error[fine], std::abs(balance / start - 1.));
+        error[fine] = std::max(error[fine], std::abs((balance - change) / start - 1.));
+        changed[fine] = std::max(changed[fine], std::abs(change) / start);
         pair.simulation.integrate();
       }
       REQUIRE(met);
     }
-    UNSCOPED_INFO("run " << run << ": balance error " << error[0] << " at 2e-8 s, " << error[1] << " at 0.5e-8 s");
+    std::printf("%5d %15.2e %15.2e %15.2e\n", run, changed[1], error[0], error[1]);
+    sum[0] += error[0];
+    sum[1] += error[1];
     worst = std::max(worst, error[1]);
   }
-  CAPTURE(worst);
-  CHECK(worst < 1e-6);
+  CAPTURE(worst, sum[0], sum[1]);
+  CHECK(worst < 1e-5);
+  CHECK(sum[0] / sum[1] > 3.5);
 }
 
 TEST_CASE("a collision does not depend on the frame")
 {
+  const OneThread one_thread;
   // The same collision turned as a whole, 3000 steps: rounding of 1e-16 a step, and a contact found to 1e-10 half-axes
   // on smooth grains whose overlap is stationary in it.
   std::mt19937_64 generator(9);
@@ -389,8 +435,9 @@ TEST_CASE("a collision does not depend on the frame")
     p.friction = 0.3;
     p.damping_ratio = 0.1;
     p.time_step = 2e-8;
-    const Particles grains = run == 0 ? oblique(sphere(radius), sphere(radius), 40)
-                                      : oblique(grain_shape(generator, 0.8, 1.2), grain_shape(generator, 0.8, 1.2), 40 + run);
+    const Particles grains =
+        run == 0 ? oblique(sphere(radius), sphere(radius), 40)
+                 : oblique(grain_shape(generator, 0.8, 1.2), grain_shape(generator, 0.8, 1.2), 40 + run);
     const Quaternion turn = Quaternion(0.3, -0.5, 0.8, 0.1).normalized();
     Particles turned = grains;
     for (int i = 0; i < 2; ++i)
@@ -421,9 +468,10 @@ TEST_CASE("a collision does not depend on the frame")
 
 TEST_CASE("the forces of a pair that turns as one body turn with it")
 {
+  const OneThread one_thread;
   // Two pressed and sheared spheres are led on circles, steps of angle a = 2.5/n: the true relative motion is none. The
-  // displacement of a step, chord less arms at its end, is off by a^2/2 times the distance d: in all by 2.5^2 d/(2n), of
-  // which the tangential spring takes the part in the plane. First order at least, and no more than that.
+  // displacement of a step, chord less arms at its end, is off by a^2/2 times the distance d: in all by 2.5^2 d/(2n),
+  // of which the tangential spring takes the part in the plane. First order at least, and no more than that.
   const double overlap = 1e-6;
   std::vector<double> errors;
   for (const int n : {500, 1000, 2000})
@@ -435,8 +483,8 @@ TEST_CASE("the forces of a pair that turns as one body turn with it")
     const double distance = 2. * radius - overlap;
     grains.add(sphere(radius), 2500., Vec3(0., 0., -0.5 * distance), Quaternion::Identity());
     grains.add(sphere(radius), 2500., Vec3(0., 0., 0.5 * distance), Quaternion::Identity());
-    const double k = 4. * p.grain.young_modulus / (2. * (1. + p.grain.poisson_ratio)) * std::sqrt(0.5 * radius * overlap) /
-                     (2. - p.grain.poisson_ratio);
+    const double k = 4. * p.grain.young_modulus / (2. * (1. + p.grain.poisson_ratio)) *
+                     std::sqrt(0.5 * radius * overlap) / (2. - p.grain.poisson_ratio);
     const Vec3 first(6e-8, -4e-8, 0.); // shear
     grains.velocity[1] = first / p.time_step;
     Pair pair(p, grains);

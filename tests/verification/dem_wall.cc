@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <omp.h>
 #include <random>
 #include <vector>
 
@@ -10,6 +11,16 @@ using namespace bergamo::dem;
 
 namespace
 {
+
+/// A team of threads costs more than it gains on one or two grains.
+struct OneThread
+{
+  OneThread() : before(omp_get_max_threads()) { omp_set_num_threads(1); }
+  ~OneThread() { omp_set_num_threads(before); }
+  OneThread(const OneThread &) = delete;
+  OneThread &operator=(const OneThread &) = delete;
+  int before;
+};
 
 constexpr double radius = 1e-3;
 const Superquadric sphere{Vec3::Constant(radius), 1., 1.};
@@ -73,6 +84,7 @@ Chain pressed_chain(const SimulationParameters &p, const int n, const double ove
 
 TEST_CASE("a sphere settles on the floor at Hertz's static overlap")
 {
+  const OneThread one_thread;
   // m g = gamma E* d^(3/2). Critically damped to half, contact frequency some 1e4/s: after 0.05 s the swing has died
   // by exp(-100) and more; d is a difference of lengths 1e4 times larger (1e-12).
   for (const Vec3 &normal : {Vec3(0., 0., 1.), Vec3(Vec3(0.3, -0.4, 0.8).normalized())})
@@ -103,11 +115,12 @@ TEST_CASE("a sphere settles on the floor at Hertz's static overlap")
 
 TEST_CASE("the work of a moving wall is the energy that the grain gains")
 {
+  const OneThread one_thread;
   // A wall that comes at speed V hits a resting sphere without damping: it leaves at 2 V, so the wall has done 2 m V^2.
   // Leapfrog's second order: some hundred steps a contact give 1e-4.
   SimulationParameters p = soft_parameters();
   p.damping_ratio = 0.;
-  p.contact.motion_budget = 0.;
+  p.contact.overlap_tolerance = 0.;
   const double speed = 0.1;
   for (const bool is_fine : {false, true})
   {
@@ -129,8 +142,13 @@ TEST_CASE("the work of a moving wall is the energy that the grain gains")
     REQUIRE(met);
     const double mass = simulation.particles.mass[0], out = simulation.particles.velocity[0][2];
     CHECK(out == Approx(2. * speed).epsilon(1e-4));
-    // Work by the trapezoidal rule of the forces is exact for leapfrog: equal to the kinetic energy to rounding.
-    CHECK(simulation.walls[0].work == Approx(0.5 * mass * out * out).epsilon(1e-11));
+    // Wall's work = V sum f dt = V m v, exact for leapfrog; and it is the kinetic energy but for what the trapezoidal
+    // rule misses of the contact's spring, which is booked as a loss: both to rounding.
+    CHECK(simulation.walls[0].work == Approx(mass * speed * out).epsilon(1e-12));
+    simulation.compute_forces();
+    const GrainEnergy e = simulation.energy();
+    CHECK(e.wall_work == Approx(0.5 * mass * out * out + e.viscous_loss).epsilon(1e-12));
+    CHECK(std::abs(e.viscous_loss) < 1e-4 * e.wall_work);
     CHECK(simulation.walls[0].work == Approx(2. * mass * speed * speed).epsilon(1e-4));
     CHECK(simulation.particles.velocity[0].head<2>().norm() < 1e-15);
   }
@@ -138,6 +156,7 @@ TEST_CASE("the work of a moving wall is the energy that the grain gains")
 
 TEST_CASE("the account stays closed when a wall is taken away")
 {
+  const OneThread one_thread;
   // What the wall did while it was there stays done: balance() is constant but for the elastic energy of its contacts,
   // which is none once the grain has left.
   SimulationParameters p = soft_parameters();
@@ -145,7 +164,7 @@ TEST_CASE("the account stays closed when a wall is taken away")
   grains.add(sphere, p.grain.density, Vec3(0., 0., radius + 1e-6), Quaternion::Identity());
   PlaneWall wall = floor_at(0.);
   wall.velocity = Vec3(0., 0., 0.1);
-  Simulation simulation(p, grains, {wall, floor_at(1.)});
+  Simulation simulation(p, grains, {wall, floor_at(1., -Vec3::UnitZ())});
   for (int i = 0; i < 2000; ++i)
     simulation.step();
   simulation.compute_forces();
@@ -160,9 +179,11 @@ TEST_CASE("the account stays closed when a wall is taken away")
 
 TEST_CASE("the stable time step of one sphere on a wall in closed form")
 {
-  // Modes of the pressed sphere: along the normal k, c; sideways the stiffness kT with the mass and, by the arm, with the
-  // inertia 2/5 m r^2: kT (1/m + (r - d/2)^2/I). Each allows the dt that solves s dt^2/4 + c' dt/2 = 1 (s stiffness and c'
-  // damping over mass); the shortest counts. Forty iterations of the power method, thrice, on modes 1.3 apart: 1e-6.
+  const OneThread one_thread;
+  // Modes of the pressed sphere: along the normal k, c; sideways the stiffness kT with the mass and, by the arm, with
+  // the inertia 2/5 m r^2: kT (1/m + (r - d/2)^2/I). Each allows the dt that solves s dt^2/4 + c' dt/2 = 1 (s stiffness
+  // and c' damping over mass); the shortest counts. Forty iterations of the power method, thrice, on modes 1.3 apart:
+  // 1e-6.
   for (const Vec3 &normal : {Vec3(0., 0., 1.), Vec3(1., 0., 0.), Vec3(Vec3(0.3, -0.4, 0.8).normalized())})
     for (const double zeta : {0., 0.2, 0.9, 2.})
     {
@@ -175,15 +196,18 @@ TEST_CASE("the stable time step of one sphere on a wall in closed form")
       simulation.compute_forces();
       const double m = simulation.particles.mass[0], k = 1.5 * wall_coefficient(p) * std::sqrt(overlap);
       const double c = 2. * zeta * std::sqrt(k * m);
-      const auto longest = [](const double s, const double d) { return 2. / s * (std::sqrt(0.25 * d * d + s) - 0.5 * d); };
+      const auto longest = [](const double s, const double d)
+      { return 2. / s * (std::sqrt(0.25 * d * d + s) - 0.5 * d); };
       const double g1 = p.grain.young_modulus / (2. * (1. + p.grain.poisson_ratio));
       const double g2 = p.wall.young_modulus / (2. * (1. + p.wall.poisson_ratio));
-      const double kt = 8. * std::sqrt(radius * overlap) / ((2. - p.grain.poisson_ratio) / g1 + (2. - p.wall.poisson_ratio) / g2);
+      const double kt =
+          8. * std::sqrt(radius * overlap) / ((2. - p.grain.poisson_ratio) / g1 + (2. - p.wall.poisson_ratio) / g2);
       const double arm = radius - 0.5 * overlap;
       const double normal_step = longest(k / m, c / m);
       const double sideways_step = longest(kt / m * (1. + 2.5 * arm * arm / radius / radius), 0.);
       CAPTURE(normal.transpose(), zeta, normal_step, sideways_step);
-      CHECK(longest(k / m, c / m) == Approx(2. / std::sqrt(k / m) * (std::sqrt(1. + zeta * zeta) - zeta)).epsilon(1e-12));
+      CHECK(longest(k / m, c / m) ==
+            Approx(2. / std::sqrt(k / m) * (std::sqrt(1. + zeta * zeta) - zeta)).epsilon(1e-12));
       CHECK(simulation.stable_time_step() == Approx(std::min(normal_step, sideways_step)).epsilon(1e-6));
     }
   // No contact: no limit.
@@ -196,20 +220,23 @@ TEST_CASE("the stable time step of one sphere on a wall in closed form")
 
 TEST_CASE("a pressed chain is stable just below the stable time step and not just above it")
 {
-  // Small random velocities in all degrees of freedom about an equilibrium in which everything sticks: linear. At 0.95 of
-  // the limit the swing stays bounded, at 1.05 its fastest mode grows by exp(2 acosh(1.05^2...)) > 1.3 a step.
-  // The estimate is from below in stiffness, so 5 % also bound its error.
+  const OneThread one_thread;
+  // Small random velocities in all degrees of freedom about an equilibrium in which everything sticks: linear. At 1.05
+  // of the limit the fastest mode's multiplier is mu + 1/mu = 4 * 1.05^2 - 2, mu = 1.88 undamped: 1.88^100. At 0.95 the
+  // swing stays bounded, but for the chain's buckling by rolling, at sqrt(overlap/radius) = 1e-3 of the contact's
+  // frequency: exp(2e-3 n) in n steps, which is 8 here. The estimate is from below in stiffness, so 5 % also bound its
+  // error.
   for (const double zeta : {0., 0.5})
   {
     SimulationParameters p = soft_parameters();
     p.friction = p.wall_friction = 1e4;
     p.damping_ratio = zeta;
-    p.contact.motion_budget = 0.;
-    const double overlap = 2e-6;
+    p.contact.overlap_tolerance = 0.;
+    const double overlap = 1e-9;
     Chain chain = pressed_chain(p, 5, overlap);
     std::mt19937_64 generator(3);
     std::normal_distribution<double> normal;
-    const double speed = 1e-8;
+    const double speed = 1e-11;
     for (std::size_t i = 0; i < chain.grains.size(); ++i)
     {
       chain.grains.velocity[i] = speed * Vec3(normal(generator), normal(generator), normal(generator));
@@ -218,9 +245,14 @@ TEST_CASE("a pressed chain is stable just below the stable time step and not jus
     }
     Simulation probe(p, chain.grains, chain.walls);
     probe.compute_forces();
-    double residual = 0.;
-    for (const Vec3 &f : probe.particles.force)
-      residual = std::max(residual, f.norm());
+    // Equilibrium: without the velocities a grain's acceleration over a millisecond gives less than their speed.
+    Chain still = chain;
+    for (std::size_t i = 0; i < still.grains.size(); ++i)
+      still.grains.velocity[i] = still.grains.angular_velocity[i] = still.grains.angular_momentum[i] = Vec3::Zero();
+    Simulation resting(p, still.grains, still.walls);
+    resting.compute_forces();
+    for (std::size_t i = 0; i < resting.particles.size(); ++i)
+      CHECK(resting.particles.force[i].norm() / resting.particles.mass[i] * 1e-3 < speed);
     const double limit = probe.stable_time_step();
     // The fastest pair mode lies between the one of a lone contact and twice it: 2/sqrt(4 k/m) < limit.
     CHECK(limit < 2. / std::sqrt(2. * chain.stiffness / probe.particles.mass[0]));
@@ -242,7 +274,7 @@ TEST_CASE("a pressed chain is stable just below the stable time step and not jus
       return largest;
     };
     CAPTURE(zeta, limit);
-    CHECK(largest_speed_after(0.95, 3000) < 100. * speed);
+    CHECK(largest_speed_after(0.95, 1000) < 100. * speed);
     CHECK(largest_speed_after(1.05, 100) > 1e3 * speed);
   }
 }

@@ -1,0 +1,237 @@
+#!/usr/bin/env python3
+"""The driver two_scale_triaxial as a user runs it: results, restart, bad input, failures.
+
+Usage: two_scale_triaxial.py PROGRAM [TOPIC]
+"""
+
+import csv
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = Path(sys.argv.pop(1)).resolve()
+FOLDER = Path(__file__).resolve().parents[2] / "drivers" / "two_scale_triaxial"
+SMOKE = FOLDER / "smoke.prm"
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.tmp = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.tmp, True)
+
+    def command(self, output, *options, prm=SMOKE):
+        return [str(PROGRAM), str(prm), "--output", str(output), "--no-plots", "--quiet", *options]
+
+    def run_driver(self, output, *options, prm=SMOKE, **kwargs):
+        return subprocess.run(self.command(output, *options, prm=prm), capture_output=True, text=True, timeout=300, **kwargs)
+
+    def assert_refused(self, result, *words, code=2):
+        """One clear message with these words, and nothing of the machinery behind it."""
+        self.assertEqual(result.returncode, code, result.stderr)
+        errors = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
+        self.assertEqual(len(errors), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, errors[0])
+        for noise in ("dealii", "ParameterHandler", "HDF5-DIAG", "terminate called", "what():"):
+            self.assertNotIn(noise, result.stderr)
+
+
+def history(folder):
+    with open(folder / "history.csv", newline="") as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+class Results(Case):
+    def test_models(self):
+        """Each model runs to its end; what it writes is whole and makes sense."""
+        final = {}
+        for kind in ("two-scale", "grains", "continuum"):
+            with self.subTest(kind):
+                out = self.tmp / kind
+                result = self.run_driver(out, "--set", f"Model/kind={kind}")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                rows = history(out)
+                summary = json.loads((out / "summary.json").read_text())
+                self.assertGreaterEqual(len(rows), 50)
+                self.assertEqual(summary["model"], kind)
+                self.assertEqual(summary["undecided_contacts"], 0)
+                # Works and losses close by construction; what is left comes from the contacts' following of the
+                # rigid motion (overlap tolerance 1e-4) and stays below a thousandth of the work done.
+                self.assertLess(summary["energy_residual"], 1e-3)
+                self.assertLess(summary["max_overlap_over_radius"], 0.02)
+                self.assertLess(summary["time_step_s"], summary["stable_time_step_s"])
+                for direction in "123":
+                    # starts at the packing's 1 kPa, ends compressed
+                    self.assertAlmostEqual(rows[0][f"stress_{direction}_Pa"], -1000, delta=300)
+                    self.assertLess(rows[-1][f"stress_{direction}_Pa"], -2000)
+                strain = sum(rows[-1][f"strain_{d}"] for d in "123")
+                self.assertAlmostEqual(strain, -0.003, delta=1e-9)
+                self.assertTrue((out / "parameters.prm").exists())
+                if kind != "continuum":
+                    self.assertTrue((out / "grains_0001.vtu").exists())
+                if kind != "grains":
+                    self.assertTrue((out / "continuum_0001.vtu").exists())
+                final[kind] = rows[-1]
+
+    def test_continuum_closed_form(self):
+        """A homogeneous elastic start: p = p0 - K eps_v while no yielding (Hooke)."""
+        out = self.tmp / "run"
+        options = ["Model/kind=continuum", "Loading/axial strain=0", "Loading/volumetric strain change=0"]
+        result = self.run_driver(out, *[x for o in options for x in ("--set", o)])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        last = history(out)[-1]
+        bulk_modulus = 60e6 / (3 * (1 - 2 * 0.145))
+        for direction in "123":
+            # forces over the shrunken faces: (1 - eps/3)^2 = 1 - 0.0013; waves are damped to below that
+            self.assertAlmostEqual(last[f"stress_{direction}_Pa"], -1000 - bulk_modulus * 0.002,
+                                   delta=0.003 * bulk_modulus * 0.002)
+
+
+class Restart(Case):
+    def test_killed_run_goes_on_with_the_same_bits(self):
+        """kill -9 in the loading, then --restart on another number of threads: the files are those of a run in one go."""
+        whole, killed = self.tmp / "whole", self.tmp / "killed"
+        self.assertEqual(self.run_driver(whole, "--threads", "1").returncode, 0)
+        process = subprocess.Popen(self.command(killed, "--threads", "2"), stderr=subprocess.DEVNULL)
+        deadline = time.time() + 200
+        while time.time() < deadline and process.poll() is None:
+            try:
+                enough = len((killed / "history.csv").read_text().splitlines()) > 25
+            except OSError:
+                enough = False
+            if enough:
+                break
+            time.sleep(0.01)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        self.assertFalse((killed / "summary.json").exists())
+        self.assertTrue((killed / "snapshot.h5").exists())
+        result = self.run_driver(killed, "--restart", "--threads", "3")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in ("history.csv", "grains_0000.vtu", "grains_0001.vtu", "continuum_0001.vtu"):
+            self.assertEqual((whole / name).read_bytes(), (killed / name).read_bytes(), name)
+
+    def test_interrupt(self):
+        """Ctrl-C ends the step, writes a snapshot and says how to go on."""
+        out = self.tmp / "run"
+        process = subprocess.Popen(self.command(out), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while not (out / "parameters.prm").exists():
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        stdout, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("--restart", stdout)
+        self.assertTrue((out / "snapshot.h5").exists())
+        self.assertEqual(self.run_driver(out, "--restart").returncode, 0)
+
+
+class BadInput(Case):
+    def test_parameters(self):
+        """Every mistake is refused before any work, names the thing, and leaves no folder."""
+        out = self.tmp / "run"
+        mistakes = {
+            "Grains/frction=0.3": ("frction", "friction"),
+            "Grain/friction=0.3": ("Grain/friction", "Grains"),
+            "Grains/friction=rough": ("friction", "rough"),
+            "Continuum/Poisson's ratio=0.6": ("Poisson's ratio", "0.6", "0.5"),
+            "Grains/Poisson's ratio=0.6": ("Poisson's ratio", "0.6"),
+            "Grains/largest exponent=2": ("largest exponent", "2"),
+            "Grains/smallest half-axis=-0.0002": ("smallest half-axis", "-0.0002"),
+            "Loading/time step=0": ("time step", "0"),
+            "Loading/time step=1e-5": ("time step", "1e-05", "stable"),
+            "Packing/time step=1e-5": ("time step", "stable"),
+            "Model/overlap layers=2": ("overlap layers", "2"),
+            "Model/continuum layers=3": ("continuum layers", "3"),
+            "Model/elements per edge=50": ("elements per edge",),
+            "Model/edge=0.0005": ("edge",),
+            "Packing/initial solid fraction=0.7": ("initial solid fraction", "0.7"),
+            "Packing/initial solid fraction=0.3": ("does not fit", "solid fraction"),
+            "Continuum/dilation angle=40": ("dilation", "40"),
+            "Coupling/penalty=-1": ("penalty", "-1"),
+            "Loading/axial strain=nan": ("axial strain", "nan"),
+        }
+        for setting, words in mistakes.items():
+            with self.subTest(setting):
+                self.assert_refused(self.run_driver(out, "--set", setting), *words)
+                self.assertFalse(out.exists())
+
+    def test_continuum_time_step(self):
+        result = self.run_driver(self.tmp / "run", "--set", "Model/kind=continuum", "--set", "Loading/time step=1e-4")
+        self.assert_refused(result, "time step", "0.0001", "stable")
+
+    def test_files(self):
+        out = self.tmp / "run"
+        self.assert_refused(self.run_driver(out, prm=self.tmp / "none.prm"), "none.prm")
+        broken = self.tmp / "broken.prm"
+        broken.write_text("subsection Model\n  set kind = fluid\nend\n")
+        self.assert_refused(self.run_driver(out, prm=broken), "kind", "fluid", "two-scale")
+        self.assert_refused(self.run_driver(out, "--restart"), "snapshot")
+        out.mkdir()
+        (out / "history.csv").write_text("precious")
+        self.assert_refused(self.run_driver(out), str(out), "--force")
+        self.assertEqual((out / "history.csv").read_text(), "precious")
+
+    def test_read_only_folder(self):
+        if os.geteuid() == 0:
+            self.assert_refused(self.run_driver(Path("/proc/bergamo")), "/proc")
+        else:
+            self.tmp.chmod(0o500)
+            self.assert_refused(self.run_driver(self.tmp / "run"), str(self.tmp))
+
+
+class Failures(Case):
+    def finished_packing(self):
+        """A run that was stopped early, with its snapshot."""
+        out = self.tmp / "run"
+        process = subprocess.Popen(self.command(out), stdout=subprocess.DEVNULL)
+        while not (out / "snapshot.h5").exists():
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        process.wait()
+        return out
+
+    def test_damaged_and_foreign_snapshots(self):
+        out = self.finished_packing()
+        snapshot = out / "snapshot.h5"
+        good = snapshot.read_bytes()
+        damaged = bytearray(good)
+        damaged[len(good) // 2] ^= 1
+        for name, content in {"flipped bit": bytes(damaged), "half": good[: len(good) // 2], "text": b"hello" * 1000,
+                              "empty": b""}.items():
+            with self.subTest(name):
+                snapshot.write_bytes(content)
+                self.assert_refused(self.run_driver(out, "--restart"), "snapshot.h5", code=1)
+                self.assertEqual(snapshot.read_bytes(), content)  # nothing touched
+        snapshot.write_bytes(good)
+        self.assert_refused(self.run_driver(out, "--restart", "--set", "Grains/friction=0.5"), "friction", "0.5")
+
+    def test_full_disk(self):
+        """A file size limit stands in for the full disk: one message, the last snapshot stays whole."""
+        out = self.finished_packing()
+        good = (out / "snapshot.h5").read_bytes()
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+
+        result = self.run_driver(out, "--restart", preexec_fn=limit)
+        self.assert_refused(result, str(out), code=1)
+        self.assertEqual((out / "snapshot.h5").read_bytes(), good)
+
+    def test_diverging_run(self):
+        """A time step that the start cannot know to be too long: the run ends with place and time, not with nonsense."""
+        result = self.run_driver(self.tmp / "run", "--set", "Loading/time step=1.5e-6", "--set",
+                                 "Loading/isotropic time=0.02")
+        self.assert_refused(result, "diverged", "time step", code=1)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,213 @@
+// Grains and continuum in one overlap, moved together: the coupling must not notice.
+// Source of the conditions: Wellmann, 6.1-6.2; forces are gradients of one energy of the displacement difference.
+
+#include <catch2/catch.hpp>
+
+#include "coupling/adapter/dealii_adapter.h"
+#include "coupling/adapter/two_scale_model.h"
+#include "dem/packing/compression.h"
+#include "dem/packing/distribution.h"
+#include "dem/packing/random_addition.h"
+#include "fe_dealii/box_mesh.h"
+
+#include <deal.II/grid/tria.h>
+#include <omp.h>
+
+#include <algorithm>
+
+using namespace bergamo;
+using coupling::TwoScaleModel;
+using dem::Mat3;
+using dem::Vec3;
+
+namespace
+{
+
+constexpr double edge = 0.006, layer = 0.002; // [m]; three layers of elements, the upper one shared
+
+/// Loose grains in the upper two thirds of a cube, elements in the lower two thirds: no contacts, so that every force
+/// on a grain comes from the coupling.
+TwoScaleModel make_model(const coupling::Projection projection, const double initial_pressure = 0.)
+{
+  std::mt19937_64 generator(7);
+  const dem::Box box{Vec3(0., 0., layer), Vec3(edge, edge, 3. * layer)};
+  const auto grains = dem::draw_grains(dem::GrainDistribution(), 0.2 * box.volume(), generator);
+  dem::SimulationParameters parameters;
+  auto simulation = std::make_unique<dem::Simulation>(parameters, dem::add_at_random(grains, box, 2650., generator),
+                                                      std::vector<dem::PlaneWall>());
+
+  dealii::Triangulation<3> mesh;
+  fe::make_box({{0., 0., 0.}, {edge, edge, 2. * layer}, {3, 3, 2}}, mesh);
+  fe::ExplicitBodyParameters body;
+  body.initial_pressure = initial_pressure;
+  body.material.cohesion = 1e9; // elastic: what is tested is the coupling
+  TwoScaleModel model(std::move(simulation), std::make_unique<fe::ExplicitBody>(mesh, body), parameters.time_step);
+
+  std::vector<double> weight;
+  for (const auto &x : model.body()->node_position())
+    weight.push_back(std::clamp((x[2] - layer) / layer, 0., 1.));
+  std::vector<Vec3> reference(model.grains()->particles.size());
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    reference[model.grains()->particles.id[i]] = model.grains()->particles.position[i];
+  coupling::CouplingParameters join;
+  join.projection = projection;
+  model.join(join, weight, reference);
+  return model;
+}
+
+/// Displaces both models by u(X) = translation + gradient X.
+void displace(TwoScaleModel &model, const Vec3 &translation, const Mat3 &gradient)
+{
+  for (Vec3 &x : model.grains()->particles.position)
+    x += translation + gradient * x;
+  const auto displacement = coupling::view(model.body()->displacement());
+  for (std::size_t node = 0; node < model.body()->n_nodes(); ++node)
+  {
+    const auto &x = model.body()->node_position()[node];
+    const Vec3 u = translation + gradient * Vec3(x[0], x[1], x[2]);
+    for (int d = 0; d < 3; ++d)
+      displacement[3 * node + d] = u[d];
+  }
+}
+
+double largest_coupling_force(const TwoScaleModel &model)
+{
+  double largest = 0.;
+  for (const auto &f : model.particle_forces())
+    largest = std::max(largest, f.norm());
+  for (const double f : model.body()->external_force())
+    largest = std::max(largest, std::abs(f));
+  return largest;
+}
+
+} // namespace
+
+TEST_CASE("a common translation or homogeneous strain gives no coupling force")
+{
+  const auto projection = GENERATE(coupling::Projection::lumped, coupling::Projection::consistent);
+  Mat3 strain;
+  strain << -0.01, 0.004, 0.002, 0.004, 0.006, -0.003, 0.002, -0.003, -0.012;
+  const auto [translation, gradient] = GENERATE_COPY(std::pair(Vec3(1e-4, -2e-4, 3e-4), Mat3(Mat3::Zero())),
+                                                     std::pair(Vec3(0., 0., 0.), strain));
+  TwoScaleModel model = make_model(projection);
+  REQUIRE(model.coupling()->overlap().n_particles() > 10);
+
+  // What the coupling would answer if the grains alone moved so: the scale for "no force".
+  TwoScaleModel grains_alone = make_model(projection);
+  for (Vec3 &x : grains_alone.grains()->particles.position)
+    x += translation + gradient * x;
+  grains_alone.compute_forces();
+  const double scale = largest_coupling_force(grains_alone);
+  REQUIRE(scale > 1e-3);
+
+  displace(model, translation, gradient);
+  model.compute_forces();
+  // Positions of size 1e-2 m, rounded to 1e-16 of that, against displacements of 1e-5 m and more: 1e-12.
+  CHECK(largest_coupling_force(model) < 1e-11 * scale);
+  CHECK(model.penalty_state().energy < 1e-20 * grains_alone.penalty_state().energy);
+}
+
+TEST_CASE("coupling forces sum to zero over both models, whatever the displacements")
+{
+  const auto projection = GENERATE(coupling::Projection::lumped, coupling::Projection::consistent);
+  TwoScaleModel model = make_model(projection);
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<double> uniform(-1e-5, 1e-5);
+  for (Vec3 &x : model.grains()->particles.position)
+    x += Vec3(uniform(generator), uniform(generator), uniform(generator));
+  for (double &u : coupling::view(model.body()->displacement()))
+    u += uniform(generator);
+  model.compute_forces();
+
+  Vec3 sum = Vec3::Zero();
+  double size = 0.;
+  for (const auto &f : model.particle_forces())
+  {
+    sum += f;
+    size += f.norm();
+  }
+  const auto force = coupling::view(model.body()->external_force());
+  for (std::size_t node = 0; node < model.body()->n_nodes(); ++node)
+  {
+    const Vec3 f(force[3 * node], force[3 * node + 1], force[3 * node + 2]);
+    sum += f;
+    size += f.norm();
+  }
+  REQUIRE(size > 1e-3);
+  CHECK(sum.norm() < 1e-14 * size); // rounding of some hundred terms
+}
+
+TEST_CASE("the coupled step keeps momentum and closes the energy balance")
+{
+  // No walls, no supports: the total momentum changes by rounding alone. Kinetic and coupling energy exchange without
+  // loss: both leapfrogs use trapezoidal work and the penalty is quadratic, so the balance closes to rounding.
+  TwoScaleModel model = make_model(coupling::Projection::lumped);
+  dem::Particles &p = model.grains()->particles;
+  for (Vec3 &v : p.velocity)
+    v = Vec3(0.01, -0.02, -0.03);
+  const auto momentum = [&]
+  {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < p.size(); ++i)
+      sum += p.weight[i] * p.mass[i] * p.velocity[i];
+    const auto &v = model.body()->velocity();
+    const auto &m = model.body()->mass();
+    for (std::size_t k = 0; k < v.size(); ++k)
+      sum[k % 3] += m[k] * v[k];
+    return sum;
+  };
+  const auto balance = [&]
+  {
+    const auto e = model.body()->energy();
+    return e.kinetic + e.elastic + e.plastic_dissipation + e.viscous_dissipation +
+           model.grains()->energy().kinetic + model.grains()->energy().normal + model.grains()->energy().tangential +
+           model.grains()->energy().friction_loss + model.grains()->energy().viscous_loss +
+           model.penalty_state().energy;
+  };
+  const Vec3 start = momentum();
+  double first = 0., kinetic = 0.;
+  for (int step = 0; step < 2000; ++step)
+  {
+    model.compute_forces();
+    model.kick();
+    if (step == 0)
+    {
+      first = balance();
+      kinetic = model.grains()->energy().kinetic;
+    }
+    model.move();
+  }
+  CHECK((momentum() - start).norm() < 1e-12 * start.norm());
+  model.compute_forces();
+  model.kick();
+  CHECK(model.grains()->energy().kinetic < 0.99 * kinetic); // the continuum has been set in motion
+  CHECK(std::abs(balance() - first) < 1e-4 * kinetic);      // contacts of the flying grains limit it
+}
+
+TEST_CASE("a coupled run has the same bits on any number of threads")
+{
+  const auto positions = [](const int n_threads)
+  {
+    omp_set_num_threads(n_threads);
+    TwoScaleModel model = make_model(coupling::Projection::lumped, 1000.);
+    for (Vec3 &v : model.grains()->particles.velocity)
+      v = Vec3(0.01, -0.02, -0.05);
+    for (int step = 0; step < 300; ++step)
+    {
+      model.compute_forces();
+      model.kick();
+      model.move();
+    }
+    std::vector<double> state;
+    for (const Vec3 &x : model.grains()->particles.position)
+      state.insert(state.end(), x.data(), x.data() + 3);
+    const auto u = coupling::view(std::as_const(*model.body()).displacement());
+    state.insert(state.end(), u.begin(), u.end());
+    return state;
+  };
+  const int default_threads = omp_get_max_threads();
+  const std::vector<double> one = positions(1);
+  CHECK(positions(2) == one);
+  CHECK(positions(3) == one);
+  omp_set_num_threads(default_threads);
+}
