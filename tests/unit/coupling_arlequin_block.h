@@ -2,6 +2,8 @@
 
 #include "coupling/arlequin/overlap.h"
 
+#include <Eigen/LU>
+
 #include <array>
 #include <random>
 
