@@ -278,6 +278,7 @@ GrainEnergy Simulation::energy() const
   {
     e.friction_loss += lost.friction;
     e.viscous_loss += lost.viscous;
+    e.curvature_work += lost.curvature;
   }
   e.wall_work = h.removed_wall_work;
   for (const PlaneWall &wall : walls)

@@ -26,6 +26,7 @@ struct ContactState
   double spin = 0.;            ///< mean rotation about the normal since the last search [rad]
   double friction_loss = 0.;   ///< weighted energy lost tangentially since the contact began [J]
   double viscous_loss = 0.;    ///< weighted energy lost in the dashpot since the contact began [J]
+  double curvature_work = 0.;  ///< weighted energy that changes of the stiffness put into the contact [J]
   double touching = 0.;        ///< 1 while the bodies touch, else 0
 };
 
@@ -43,6 +44,8 @@ struct ContactLaw
 struct ContactEnergy
 {
   double normal = 0., tangential = 0.;
+
+  double sum() const { return normal + tangential; }
 };
 
 inline TangentialStiffness tangential_stiffness(const ContactState &s, const double root_overlap)
@@ -103,8 +106,7 @@ inline void take_geometry(ContactState &s, const Vec3 &normal, const double over
 }
 
 /// Force of a touching contact at this step, and its energy losses by the trapezoidal rule, which closes the energy
-/// balance of the leapfrog scheme for constant stiffness. The stiffness follows the curvature at the contact, so that the
-/// normal force of rolling grains has no potential: that share of the balance stays open and is part of its residual.
+/// balance of the leapfrog scheme.
 /// @param s with this step's overlap > 0 in place; @param old_overlap last step's, <= 0 for a new contact [m]
 /// @param displacement motion of body 2 relative to body 1 at the contact point since last step [m]
 /// @return force on body 1, without the weight [N]

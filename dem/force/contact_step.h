@@ -16,6 +16,13 @@ struct ContactMotion
   Vec3 mean_turn;  ///< mean rotation of both bodies [rad]
 };
 
+/// Energy stored in a contact if its overlap were the one given [m, J].
+inline double energy_at(ContactState s, const double overlap)
+{
+  s.overlap = overlap;
+  return stored_energy(s).sum();
+}
+
 /// Brings one contact to this step: follow its rigid motion while that is within the budget, else search; then force
 /// and losses, or the end of the contact.
 /// @param displacement_at displacement_at(s): motion of body 2 relative to body 1 at the contact point of s [m]
@@ -50,20 +57,25 @@ Vec3 step_contact(ContactState &s, const ContactLaw &law, const ContactMotion &m
       }
       return Vec3::Zero();
     }
+    if (was_touching)
+      s.curvature_work += energy_at(s, old_overlap) - energy_at(before, old_overlap);
     displacement = displacement_at(s);
   }
   return s.weight * advance_contact(s, law, old_overlap, displacement, time_step);
 }
 
-/// Weighted energy losses since the start of a run [J].
+/// Weighted energies lost in contacts and put in by changes of their stiffness since the start of a run [J]. The
+/// stiffness follows the curvature at the contact, so the force of rolling non-spherical grains has no potential: what
+/// that gives or takes is booked as curvature work.
 struct ContactLosses
 {
-  double friction = 0., viscous = 0.;
+  double friction = 0., viscous = 0., curvature = 0.;
 
   void take(ContactState &s)
   {
     friction += std::exchange(s.friction_loss, 0.);
     viscous += std::exchange(s.viscous_loss, 0.);
+    curvature += std::exchange(s.curvature_work, 0.);
   }
 };
 
@@ -73,6 +85,7 @@ inline ContactLosses sum_losses(ContactLosses sum, const std::span<const Contact
   {
     sum.friction += s.friction_loss;
     sum.viscous += s.viscous_loss;
+    sum.curvature += s.curvature_work;
   }
   return sum;
 }

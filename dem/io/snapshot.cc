@@ -96,6 +96,8 @@ void visit_scalars(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/time", s.time);
   visit("dem/pairs/friction_loss", s.pairs.losses.friction);
   visit("dem/pairs/viscous_loss", s.pairs.losses.viscous);
+  visit("dem/pairs/curvature_work", s.pairs.losses.curvature);
+  visit("dem/wall_contacts/curvature_work", s.wall_contacts.losses.curvature);
   visit("dem/wall_contacts/friction_loss", s.wall_contacts.losses.friction);
   visit("dem/wall_contacts/viscous_loss", s.wall_contacts.losses.viscous);
   visit("dem/hidden/verlet_distance", h.verlet_distance);

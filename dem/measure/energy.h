@@ -18,12 +18,13 @@ struct GrainEnergy
   double tangential = 0.;    ///< stored in their tangential springs
   double friction_loss = 0.; ///< lost tangentially
   double viscous_loss = 0.;  ///< lost in the dashpots
+  double curvature_work = 0.; ///< put in by changes of the contacts' stiffness, see ContactLosses
   double wall_work = 0.;     ///< done by walls on grains
   double gravity_work = 0.;
   double external_work = 0.; ///< done by Particles::external_force
 
   double stored() const { return kinetic + normal + tangential; }
-  double balance() const { return stored() + friction_loss + viscous_loss - wall_work - gravity_work - external_work; }
+  double balance() const { return stored() + friction_loss + viscous_loss - curvature_work - wall_work - gravity_work - external_work; }
 };
 
 } // namespace bergamo::dem

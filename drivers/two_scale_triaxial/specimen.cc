@@ -140,6 +140,7 @@ SpecimenEnergy Specimen::energy() const
     e.viscous_loss += g.viscous_loss;
     e.wall_work += g.wall_work;
     e.gravity_work += g.gravity_work;
+    e.curvature_work = g.curvature_work;
   }
   if (const fe::ExplicitBody *body = model.body())
   {

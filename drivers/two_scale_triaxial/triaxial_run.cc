@@ -23,7 +23,7 @@ const std::vector<std::string> columns = {
     "time_s", "stage", "strain_1", "strain_2", "strain_3", "stress_1_Pa", "stress_2_Pa", "stress_3_Pa",
     "energy_kinetic_J", "energy_grains_elastic_J", "energy_continuum_elastic_J", "energy_coupling_J",
     "energy_friction_loss_J", "energy_viscous_loss_J", "energy_plastic_loss_J", "energy_wall_work_J",
-    "energy_gravity_work_J", "energy_residual_J", "coordination_number", "max_overlap_over_radius",
+    "energy_gravity_work_J", "energy_curvature_work_J", "energy_residual_J", "coordination_number", "max_overlap_over_radius",
     "coupling_difference_m"};
 
 std::string picture_name(const char *model, const std::size_t number)
@@ -249,7 +249,7 @@ void TriaxialRun::sample(const double time, const dem::Vec3 &strain, History &hi
   const double row[] = {time, static_cast<double>(parameters.program.stage(time)), strain[0], strain[1], strain[2],
                         last_stress[0], last_stress[1], last_stress[2], e.kinetic, e.grains_elastic,
                         e.continuum_elastic, e.coupling, e.friction_loss, e.viscous_loss, e.plastic_loss, e.wall_work,
-                        e.gravity_work, residual, coordination, overlap, largest_difference};
+                        e.gravity_work, e.curvature_work, residual, coordination, overlap, largest_difference};
   history.append(row);
 }
 

@@ -7,6 +7,7 @@ Usage: two_scale_triaxial.py PROGRAM [TOPIC]
 import csv
 import json
 import os
+import re
 import resource
 import shutil
 import signal
@@ -63,9 +64,9 @@ class Results(Case):
                 self.assertGreaterEqual(len(rows), 50)
                 self.assertEqual(summary["model"], kind)
                 self.assertEqual(summary["undecided_contacts"], 0)
-                # Works and losses close by construction; what is left comes from the contacts' following of the
-                # rigid motion (overlap tolerance 1e-4) and stays below a thousandth of the work done.
-                self.assertLess(summary["energy_residual"], 1e-3)
+                # Works and losses close by construction; what is left is the turning of arms within a step, of first
+                # order in the motion of a step (1e-6 of a grain).
+                self.assertLess(summary["energy_residual"], 1e-5)
                 self.assertLess(summary["max_overlap_over_radius"], 0.02)
                 self.assertLess(summary["time_step_s"], summary["stable_time_step_s"])
                 for direction in "123":
@@ -116,8 +117,11 @@ class Restart(Case):
         self.assertTrue((killed / "snapshot.h5").exists())
         result = self.run_driver(killed, "--restart", "--threads", "3")
         self.assertEqual(result.returncode, 0, result.stderr)
-        for name in ("history.csv", "grains_0000.vtu", "grains_0001.vtu", "continuum_0001.vtu"):
+        for name in ("history.csv", "grains_0000.vtu", "grains_0001.vtu"):
             self.assertEqual((whole / name).read_bytes(), (killed / name).read_bytes(), name)
+        # The mesh file carries its time of writing in a comment.
+        meshes = [re.sub(rb"<!--.*?-->", b"", (run / "continuum_0001.vtu").read_bytes(), flags=re.S) for run in (whole, killed)]
+        self.assertEqual(*meshes)
 
     def test_interrupt(self):
         """Ctrl-C ends the step, writes a snapshot and says how to go on."""
