@@ -38,7 +38,7 @@ struct TriaxialParameters
   double expected_solid_fraction = 0.67; ///< sets the number of grains
   double packing_friction = 0.15;
   double packing_time_step = 3e-7;       ///< [s]
-  double packing_overlap_tolerance = 1e-2;
+  double packing_overlap_tolerance = 5e-2;
   std::uint64_t seed = 1;
   dem::CompressionParameters compression;
 
