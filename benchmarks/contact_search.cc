@@ -20,7 +20,8 @@ struct TouchingPair
   Vec3 guess; ///< normal some 1e-4 rad away
 };
 
-/// Pairs made backwards from a random normal and a small overlap: half-axes in (0.5, 3), exponents within `spread` of 1.
+/// Pairs made backwards from a random normal and a small overlap: half-axes in (0.5, 3), exponents within `spread`
+/// of 1.
 std::vector<TouchingPair> make_pairs(const double spread)
 {
   std::mt19937_64 generator(1);

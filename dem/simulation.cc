@@ -35,7 +35,8 @@ void SimulationParameters::validate() const
   wall.validate();
   contact.validate();
   require(friction >= 0. && std::isfinite(friction), "friction coefficient", friction, "at least 0");
-  require(wall_friction >= 0. && std::isfinite(wall_friction), "wall friction coefficient", wall_friction, "at least 0");
+  require(wall_friction >= 0. && std::isfinite(wall_friction), "wall friction coefficient", wall_friction,
+          "at least 0");
   require(damping_ratio >= 0. && std::isfinite(damping_ratio), "damping ratio", damping_ratio, "at least 0");
   require(time_step > 0. && std::isfinite(time_step), "time step", time_step, "positive [s]");
   require(verlet_distance > 0. && verlet_distance <= 2., "Verlet distance", verlet_distance,
@@ -55,7 +56,8 @@ std::unique_ptr<Simulation> Simulation::empty(const SimulationParameters &parame
   return std::unique_ptr<Simulation>(new Simulation(parameters));
 }
 
-Simulation::Simulation(const SimulationParameters &parameters, Particles new_particles, std::vector<PlaneWall> new_walls)
+Simulation::Simulation(const SimulationParameters &parameters, Particles new_particles,
+                       std::vector<PlaneWall> new_walls)
     : Simulation(parameters)
 {
   particles = std::move(new_particles);
@@ -266,8 +268,7 @@ GrainEnergy Simulation::energy() const
     e.kinetic += 0.5 * mass * v.dot(next) +
                  0.5 * particles.weight[i] *
                      momentum.dot(angular_velocity(particles.orientation[i], particles.inertia[i], next_momentum));
-    e.external_work +=
-        h.external_work[i] + 0.5 * dt * (h.last_external_force[i] + particles.external_force[i]).dot(v);
+    e.external_work += h.external_work[i] + 0.5 * dt * (h.last_external_force[i] + particles.external_force[i]).dot(v);
   }
   for (const auto &stored : {pairs.total_energy(), wall_contacts.total_energy()})
   {

@@ -22,9 +22,9 @@ struct SimulationParameters
   Material wall;
   double friction = 0.24;
   double wall_friction = 0.;
-  double damping_ratio = 0.9; ///< dashpot, share of critical damping
-  Vec3 gravity = Vec3::Zero(); ///< [m/s^2]
-  double time_step = 2.5e-7;   ///< [s]
+  double damping_ratio = 0.9;   ///< dashpot, share of critical damping
+  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
+  double time_step = 2.5e-7;    ///< [s]
   double verlet_distance = 0.1; ///< over the mean bounding radius
   ContactParameters contact;
 
@@ -83,21 +83,21 @@ public:
   PairContacts pairs;
   WallContacts wall_contacts;
   std::vector<std::int32_t> index_of_id; ///< place of a grain in the arrays by its id
-  double time = 0.; ///< [s]
+  double time = 0.;                      ///< [s]
   std::int64_t n_steps = 0;
   std::int64_t n_rebuilds = 0;
 
   /// What a restart needs beyond the public state; dem/io/snapshot stores it.
   struct Hidden
   {
-    double verlet_distance = 0.;            ///< [m]
-    double largest_square_motion = 0.;      ///< since the neighbours were built [m^2]
+    double verlet_distance = 0.;       ///< [m]
+    double largest_square_motion = 0.; ///< since the neighbours were built [m^2]
     std::vector<Vec3> position_when_built;
     std::vector<double> wall_motion_when_built;
-    double start_potential = 0.;            ///< of gravity when the accounts were opened [J]
-    double removed_wall_work = 0.;          ///< done since then by walls that were removed [J]
-    std::vector<double> external_work;      ///< done on each grain since then [J]
-    std::vector<Vec3> last_external_force;  ///< [N]
+    double start_potential = 0.;           ///< of gravity when the accounts were opened [J]
+    double removed_wall_work = 0.;         ///< done since then by walls that were removed [J]
+    std::vector<double> external_work;     ///< done on each grain since then [J]
+    std::vector<Vec3> last_external_force; ///< [N]
   };
   const Hidden &hidden() const { return h; }
 

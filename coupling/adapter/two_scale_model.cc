@@ -1,7 +1,6 @@
 #include "coupling/adapter/two_scale_model.h"
 
 #include "coupling/adapter/dealii_adapter.h"
-#include "coupling/arlequin/weight.h"
 #include "fe_dealii/stable_step.h"
 
 #include <algorithm>
@@ -13,14 +12,17 @@ namespace bergamo::coupling
 
 double StableSteps::combined() const
 {
-  const auto with_coupling = [&](const double step) { return 1. / std::sqrt(1. / (step * step) + 1. / (coupling * coupling)); };
+  const auto with_coupling = [&](const double step)
+  { return 1. / std::sqrt(1. / (step * step) + 1. / (coupling * coupling)); };
   return std::min(with_coupling(grains), with_coupling(continuum));
 }
 
 TwoScaleModel::TwoScaleModel(std::unique_ptr<dem::Simulation> grains, std::unique_ptr<fe::ExplicitBody> body,
                              const double time_step)
-    : grains_(std::move(grains)), body_(std::move(body)), time_step_(grains_ ? grains_->parameters().time_step : time_step)
-{}
+    : grains_(std::move(grains)), body_(std::move(body)),
+      time_step_(grains_ ? grains_->parameters().time_step : time_step)
+{
+}
 
 void TwoScaleModel::join(const CouplingParameters &parameters, const std::span<const double> nodal_weight,
                          const std::span<const dem::Vec3> reference_by_id)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/arlequin/penalty.h"
+#include "coupling/arlequin/weight.h"
 #include "dem/simulation.h"
 #include "fe_dealii/explicit_body.h"
 
@@ -16,7 +17,7 @@ struct CouplingParameters
 {
   double penalty = 1e14; ///< epsilon [Pa/m^2], > 0
   Projection projection = Projection::lumped;
-  double least_weight = 0.05; ///< bound of the grains' weights from below, see weight.h
+  double least_weight = default_min_weight; ///< bound of the grains' weights from below, see weight.h
 };
 
 /// Largest stable steps of the parts [s]; infinity for a part that is not there.

@@ -34,7 +34,10 @@ Evaluation evaluate(const BodyPose &body1, const BodyPose &body2, const Vec3 &c)
 }
 
 /// The part of p2 - p1 that vanishes at the common normal.
-Vec3 tangential_gap(const Evaluation &e) { return e.gap - e.c * e.c.dot(e.gap); }
+Vec3 tangential_gap(const Evaluation &e)
+{
+  return e.gap - e.c * e.c.dot(e.gap);
+}
 
 ContactGeometry make_result(const Evaluation &e, const ContactStatus status, const int n_evaluations)
 {
@@ -60,8 +63,8 @@ Vec3 newton_step(const Evaluation &e, const double least, const double longest)
   double b11 = t1.dot(ht1) - e.phi;
   double b22 = t2.dot(ht2) - e.phi;
   const double b12 = t1.dot(ht2);
-  // Shift the smaller eigenvalue where the model is not convex. Beside the huge one of a flat face the difference of mean
-  // and radius would cancel to nothing: the determinant keeps it.
+  // Shift the smaller eigenvalue where the model is not convex. Beside the huge one of a flat face the difference of
+  // mean and radius would cancel to nothing: the determinant keeps it.
   const double mean = 0.5 * (b11 + b22);
   const double radius = std::hypot(0.5 * (b11 - b22), b12);
   const double high = mean + radius;
@@ -109,7 +112,7 @@ ContactGeometry minimise(const BodyPose &body1, const BodyPose &body2, const Vec
 {
   constexpr int max_evaluations = 250;
   constexpr double resolution = 1e-15; // of a unit vector
-  constexpr double growth = 1.5; // of the longest step after a success
+  constexpr double growth = 1.5;       // of the longest step after a success
   const double scale = length_scale(body1, body2);
   const double tolerance = 1e-10 * scale, least = least_curvature * scale;
 
@@ -191,8 +194,7 @@ ContactGeometry search_globally(const BodyPose &body1, const BodyPose &body2, co
   {
     const ContactGeometry candidate = minimise(body1, body2, directions[ranking[k].second]);
     n_evaluations += candidate.n_evaluations;
-    const bool first_decision =
-        best.status == ContactStatus::undecided && candidate.status != ContactStatus::undecided;
+    const bool first_decision = best.status == ContactStatus::undecided && candidate.status != ContactStatus::undecided;
     const bool lower = candidate.overlap < best.overlap &&
                        (candidate.status != ContactStatus::undecided || best.status == ContactStatus::undecided);
     if (first_decision || lower)
@@ -213,9 +215,9 @@ ContactGeometry find_contact(const BodyPose &body1, const BodyPose &body2)
 {
   const Vec3 centre_line = body2.position - body1.position;
   const ContactGeometry result = minimise(body1, body2, centre_line.normalized());
-  const bool doubtful = result.status == ContactStatus::undecided ||
-                        (result.status == ContactStatus::touching &&
-                         result.overlap > deep_overlap * length_scale(body1, body2));
+  const bool doubtful =
+      result.status == ContactStatus::undecided ||
+      (result.status == ContactStatus::touching && result.overlap > deep_overlap * length_scale(body1, body2));
   return doubtful ? search_globally(body1, body2, result) : result;
 }
 

@@ -52,20 +52,20 @@ inline GlobalSupport support(const BodyPose &body, const Vec3 &normal)
 
 enum class ContactStatus
 {
-  touching,   ///< delta >= 0, the common normal is converged
-  separated,  ///< a separating direction is known; delta < 0 is minus a lower bound of the gap
-  undecided   ///< no converged minimum found; the best direction is returned and the caller counts it
+  touching,  ///< delta >= 0, the common normal is converged
+  separated, ///< a separating direction is known; delta < 0 is minus a lower bound of the gap
+  undecided  ///< no converged minimum found; the best direction is returned and the caller counts it
 };
 
 /// Result of a contact search.
 struct ContactGeometry
 {
   ContactStatus status = ContactStatus::undecided;
-  Vec3 normal;           ///< c
-  double overlap = 0.;   ///< delta [m]
-  Vec3 arm1, arm2;       ///< p1 - x1 and p2 - x2 [m], global frame
+  Vec3 normal;             ///< c
+  double overlap = 0.;     ///< delta [m]
+  Vec3 arm1, arm2;         ///< p1 - x1 and p2 - x2 [m], global frame
   Mat3 hessian1, hessian2; ///< d p / d n of both surfaces at the contact [m], global frame
-  int n_evaluations = 0; ///< support evaluations of the pair
+  int n_evaluations = 0;   ///< support evaluations of the pair
 };
 
 } // namespace bergamo::dem

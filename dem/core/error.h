@@ -7,7 +7,8 @@
 namespace bergamo::dem
 {
 
-/// The user's mistake: the message names the thing, its value, what is allowed and the remedy. Thrown before work starts.
+/// The user's mistake: the message names the thing, its value, what is allowed and the remedy. Thrown before work
+/// starts.
 class ConfigError : public std::invalid_argument
 {
 public:

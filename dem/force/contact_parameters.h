@@ -1,8 +1,8 @@
 #pragma once
 
 #include "dem/core/types.h"
-#include "dem/shape/superquadric.h"
 #include "dem/law/hertz.h"
+#include "dem/shape/superquadric.h"
 
 #include <cmath>
 

@@ -19,15 +19,15 @@ struct ContactState
   double normal_force = 0.;             ///< f_N >= 0, without the weight [N]
   double overlap = 0.;                  ///< [m]
   HertzMindlin stiffness{0., 0., 0.};
-  double reduced_mass = 0.;    ///< [kg]
-  double weight = 1.;          ///< share of the contact in the virtual work
-  double motion = 0.;          ///< relative motion at the contact since the last search [m]
-  double motion_budget = 0.;   ///< of the motion [m]; beyond it the contact is searched anew
-  double spin = 0.;            ///< mean rotation about the normal since the last search [rad]
-  double friction_loss = 0.;   ///< weighted energy lost tangentially since the contact began [J]
-  double viscous_loss = 0.;    ///< weighted energy lost in the dashpot since the contact began [J]
-  double curvature_work = 0.;  ///< weighted energy that changes of the stiffness put into the contact [J]
-  double touching = 0.;        ///< 1 while the bodies touch, else 0
+  double reduced_mass = 0.;   ///< [kg]
+  double weight = 1.;         ///< share of the contact in the virtual work
+  double motion = 0.;         ///< relative motion at the contact since the last search [m]
+  double motion_budget = 0.;  ///< of the motion [m]; beyond it the contact is searched anew
+  double spin = 0.;           ///< mean rotation about the normal since the last search [rad]
+  double friction_loss = 0.;  ///< weighted energy lost tangentially since the contact began [J]
+  double viscous_loss = 0.;   ///< weighted energy lost in the dashpot since the contact began [J]
+  double curvature_work = 0.; ///< weighted energy that changes of the stiffness put into the contact [J]
+  double touching = 0.;       ///< 1 while the bodies touch, else 0
 };
 
 static_assert(sizeof(ContactState) % sizeof(double) == 0);
@@ -127,7 +127,8 @@ inline Vec3 advance_contact(ContactState &s, const ContactLaw &law, const double
   const double shrink = old_root > root ? root / old_root : 1.;
   const Vec3 tangential = tangential_force(k, s.tangential_force, shrink, sliding, law.friction * normal_force);
 
-  const double old_elastic = 0.4 * s.stiffness.normal * old_root * std::max(old_overlap, 0.) * std::max(old_overlap, 0.);
+  const double old_elastic =
+      0.4 * s.stiffness.normal * old_root * std::max(old_overlap, 0.) * std::max(old_overlap, 0.);
   const double elastic = 0.4 * elastic_force * s.overlap;
   s.viscous_loss += s.weight * (0.5 * (s.normal_force + normal_force) * approach - (elastic - old_elastic));
 

@@ -14,12 +14,14 @@ namespace
 
 constexpr double no_rest = -std::numeric_limits<double>::infinity();
 
-/// Share of the contact in the virtual work: interpolated along the line of centres, Wellmann (6.29).
+/// Share of the contact in the virtual work: interpolated along the line of centres, Wellmann (6.29), and held between
+/// the weights of the particles where the contact lies beside that line.
 double contact_weight(const double weight1, const double weight2, const Vec3 &centre_line, const Vec3 &arm1)
 {
   if (weight1 == weight2)
     return weight1;
-  return weight1 + centre_line.dot(arm1) / centre_line.squaredNorm() * (weight2 - weight1);
+  const double fraction = std::clamp(centre_line.dot(arm1) / centre_line.squaredNorm(), 0., 1.);
+  return weight1 + fraction * (weight2 - weight1);
 }
 
 /// The same contact seen with its bodies exchanged.

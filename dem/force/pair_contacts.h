@@ -31,7 +31,8 @@ struct PairContacts
   void reorder(const std::vector<std::int32_t> &order, const Particles &reordered);
 
   /// Brings every pair to this step: geometry where needed, then forces into `resultant`.
-  void compute(const Particles &particles, const ContactLaw &law, const ContactParameters &parameters, double time_step);
+  void compute(const Particles &particles, const ContactLaw &law, const ContactParameters &parameters,
+               double time_step);
 
   /// Losses of all contacts since the start [J].
   ContactLosses total_losses() const { return sum_losses(losses, state); }

@@ -31,7 +31,8 @@ struct Eigen2
     low = mean - radius;
     high = mean + radius;
     // Of the two equivalent rows take the one that does not cancel.
-    const Eigen::Vector2d v = half > 0. ? Eigen::Vector2d(-m(0, 1), half + radius) : Eigen::Vector2d(radius - half, -m(0, 1));
+    const Eigen::Vector2d v =
+        half > 0. ? Eigen::Vector2d(-m(0, 1), half + radius) : Eigen::Vector2d(radius - half, -m(0, 1));
     const double length = v.norm();
     low_direction = length > 0. ? Eigen::Vector2d(v / length) : Eigen::Vector2d(1., 0.);
   }
@@ -55,9 +56,9 @@ RelativeCurvature from_sum(const TangentFrame &frame, const Mat2 &curvature)
 /// Functions of the ratio b/a alone.
 struct EllipseShape
 {
-  double force;      ///< kappa sqrt(E / K^3)
-  double semi_axis;  ///< sqrt(D (1 + b/a) / K): major semi-axis = semi_axis sqrt(delta / (a + b))
-  double k, bm, d;   ///< K, B = K - D and D = (K - E) / e^2
+  double force;     ///< kappa sqrt(E / K^3)
+  double semi_axis; ///< sqrt(D (1 + b/a) / K): major semi-axis = semi_axis sqrt(delta / (a + b))
+  double k, bm, d;  ///< K, B = K - D and D = (K - E) / e^2
 };
 
 /// @param log_kappa logarithm of the ratio of the semi-axes, >= 0
@@ -95,7 +96,10 @@ public:
       entries[i] = ellipse_at(std::max(i - 1, 0) * step); // entry 0 only completes the first stencil
     // Extend evenly to the left: all functions are smooth in log(b/a) through 0, use a cubic through the next four.
     const auto extend = [&](auto member)
-    { entries[0].*member = 4. * entries[1].*member - 6. * entries[2].*member + 4. * entries[3].*member - entries[4].*member; };
+    {
+      entries[0].*member =
+          4. * entries[1].*member - 6. * entries[2].*member + 4. * entries[3].*member - entries[4].*member;
+    };
     extend(&EllipseShape::force);
     extend(&EllipseShape::semi_axis);
     extend(&EllipseShape::k);

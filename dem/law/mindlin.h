@@ -17,7 +17,8 @@ struct TangentialStiffness
 
 inline Vec3 tangential_force_increment(const TangentialStiffness &k, const Vec3 &displacement)
 {
-  return k.major * k.major_axis.dot(displacement) * k.major_axis + k.minor * k.minor_axis.dot(displacement) * k.minor_axis;
+  return k.major * k.major_axis.dot(displacement) * k.major_axis +
+         k.minor * k.minor_axis.dot(displacement) * k.minor_axis;
 }
 
 /// Energy stored in the tangential springs, f.C.f / 2 [J].

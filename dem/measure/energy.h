@@ -13,18 +13,21 @@ namespace bergamo::dem
 /// weights [J]. In exact arithmetic kinetic + elastic + losses - work stays constant.
 struct GrainEnergy
 {
-  double kinetic = 0.;       ///< m v-.v+ / 2 of the half steps around, and H-.T I^-1 T^T H+ / 2
-  double normal = 0.;        ///< stored in the contacts' normal springs
-  double tangential = 0.;    ///< stored in their tangential springs
-  double friction_loss = 0.; ///< lost tangentially
-  double viscous_loss = 0.;  ///< lost in the dashpots
+  double kinetic = 0.;        ///< m v-.v+ / 2 of the half steps around, and H-.T I^-1 T^T H+ / 2
+  double normal = 0.;         ///< stored in the contacts' normal springs
+  double tangential = 0.;     ///< stored in their tangential springs
+  double friction_loss = 0.;  ///< lost tangentially
+  double viscous_loss = 0.;   ///< lost in the dashpots
   double curvature_work = 0.; ///< put in by changes of the contacts' stiffness, see ContactLosses
-  double wall_work = 0.;     ///< done by walls on grains
+  double wall_work = 0.;      ///< done by walls on grains
   double gravity_work = 0.;
   double external_work = 0.; ///< done by Particles::external_force
 
   double stored() const { return kinetic + normal + tangential; }
-  double balance() const { return stored() + friction_loss + viscous_loss - curvature_work - wall_work - gravity_work - external_work; }
+  double balance() const
+  {
+    return stored() + friction_loss + viscous_loss - curvature_work - wall_work - gravity_work - external_work;
+  }
 };
 
 } // namespace bergamo::dem

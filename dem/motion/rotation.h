@@ -29,8 +29,9 @@ inline Vec3 angular_velocity(const Quaternion &orientation, const Vec3 &inertia,
 }
 
 /// Mean angular velocity over one step with the angular momentum H held: four evaluations averaged as in the classical
-/// Runge-Kutta formula (Wellmann 3.40-3.44, after Munjiza et al. 2003), with the two commutators that rotations, which do
-/// not commute, need for fourth order (Munthe-Kaas 1999; without them it is of second). Turning by it keeps H exactly.
+/// Runge-Kutta formula (Wellmann 3.40-3.44, after Munjiza et al. 2003), with the two commutators that rotations, which
+/// do not commute, need for fourth order (Munthe-Kaas 1999; without them it is of second). Turning by it keeps H
+/// exactly.
 /// @param orientation at the beginning of the step; @param inertia principal moments in the body frame [kg m^2]
 inline Vec3 mean_angular_velocity(const Quaternion &orientation, const Vec3 &inertia, const Vec3 &angular_momentum,
                                   const double time_step)

@@ -28,7 +28,10 @@ Coefficients coefficients(const ContactState &s, const ContactLaw &law)
   return {normal, dashpot(law.damping_ratio, normal, s.reduced_mass, 1.), tangential_stiffness(s, root)};
 }
 
-bool is_touching(const ContactState &s) { return s.touching != 0. && s.overlap > 0.; }
+bool is_touching(const ContactState &s)
+{
+  return s.touching != 0. && s.overlap > 0.;
+}
 
 /// Forces K x dt^2/4 + C x dt/2 of all contacts on a motion x, divided by mass and inertia.
 class Operator
@@ -37,10 +40,12 @@ public:
   Operator(const Particles &p, const PairContacts &pairs, const ContactLaw &pair_law, const WallContacts &walls,
            const ContactLaw &wall_law)
       : p(p), pairs(pairs), walls(walls), pair_law(pair_law), wall_law(wall_law)
-  {}
+  {
+  }
 
   /// @return Rayleigh parts x.Kx and x.Cx for x.Mx = 1 beside M^-1 (..) x
-  Motion apply(const Motion &x, const double stiffness_factor, const double damping_factor, double &stiff, double &damped) const
+  Motion apply(const Motion &x, const double stiffness_factor, const double damping_factor, double &stiff,
+               double &damped) const
   {
     Motion y{std::vector<Vec3>(p.size(), Vec3::Zero()), std::vector<Vec3>(p.size(), Vec3::Zero())};
     stiff = damped = 0.;
@@ -62,8 +67,8 @@ public:
       const auto i = pairs.list.first[pair], j = pairs.list.second[pair];
       const Vec3 half_line = 0.5 * (p.position[j] - p.position[i]);
       const Vec3 arm1 = s.point + half_line, arm2 = s.point - half_line;
-      const Vec3 f = force_of(s, pair_law,
-                              x.translation[i] + x.rotation[i].cross(arm1) - x.translation[j] - x.rotation[j].cross(arm2));
+      const Vec3 f = force_of(
+          s, pair_law, x.translation[i] + x.rotation[i].cross(arm1) - x.translation[j] - x.rotation[j].cross(arm2));
       y.translation[i] += f;
       y.translation[j] -= f;
       y.rotation[i] += arm1.cross(f);

@@ -13,8 +13,9 @@ namespace
 
 /// Calls found(j) for every j > i in range of i, cell by cell.
 template <class Found>
-void for_each_neighbour(const CellGrid &grid, const std::span<const Vec3> positions, const std::span<const double> radii,
-                        const double verlet_distance, const std::int32_t i, Found &&found)
+void for_each_neighbour(const CellGrid &grid, const std::span<const Vec3> positions,
+                        const std::span<const double> radii, const double verlet_distance, const std::int32_t i,
+                        Found &&found)
 {
   const int cell = grid.cell_of[i];
   const int cx = cell % grid.n[0], cy = cell / grid.n[0] % grid.n[1], cz = cell / grid.n[0] / grid.n[1];

@@ -61,13 +61,18 @@ std::vector<double> wall_stiffness(const Simulation &simulation)
 void CompressionParameters::validate() const
 {
   require(pressure > 0. && std::isfinite(pressure), "pressure of the compression", pressure, "positive [Pa]");
-  require(largest_rate > 0. && largest_rate <= 1000., "largest strain rate of the compression", largest_rate, "in (0, 1000] 1/s");
+  require(largest_rate > 0. && largest_rate <= 1000., "largest strain rate of the compression", largest_rate,
+          "in (0, 1000] 1/s");
   require(pressure_tolerance > 0. && pressure_tolerance < 1., "pressure tolerance", pressure_tolerance, "in (0, 1)");
   require(force_tolerance > 0. && force_tolerance < 1., "force tolerance", force_tolerance, "in (0, 1)");
-  require(longest_time > 0. && std::isfinite(longest_time), "longest time of the compression", longest_time, "positive [s]");
+  require(longest_time > 0. && std::isfinite(longest_time), "longest time of the compression", longest_time,
+          "positive [s]");
 }
 
-Compression::Compression(const CompressionParameters &parameters) : p(parameters) { p.validate(); }
+Compression::Compression(const CompressionParameters &parameters) : p(parameters)
+{
+  p.validate();
+}
 
 void Compression::step(Simulation &simulation)
 {
@@ -100,8 +105,8 @@ void Compression::step(Simulation &simulation)
   if (simulation.time > p.longest_time)
   {
     std::ostringstream message;
-    message << "the packing did not come to rest within " << p.longest_time << " s: pressures "
-            << pressure.transpose() << " Pa, unbalanced force " << unbalance
+    message << "the packing did not come to rest within " << p.longest_time << " s: pressures " << pressure.transpose()
+            << " Pa, unbalanced force " << unbalance
             << "; allow more time, a larger tolerance or a smaller strain rate";
     throw RunError(message.str());
   }

@@ -20,8 +20,8 @@ Vec3 wall_pressure(const std::vector<PlaneWall> &walls);
 /// How a packing is compressed.
 struct CompressionParameters
 {
-  double pressure = 1000.;       ///< aimed at in every direction [Pa]
-  double largest_rate = 40.;     ///< strain rate of the walls [1/s]
+  double pressure = 1000.;   ///< aimed at in every direction [Pa]
+  double largest_rate = 40.; ///< strain rate of the walls [1/s]
   double pressure_tolerance = 0.01;
   double force_tolerance = 0.01; ///< mean unbalanced over mean contact force
   double longest_time = 0.5;     ///< [s]

@@ -49,7 +49,10 @@ private:
     return c;
   }
 
-  std::size_t index(const Eigen::Vector3i &c) const { return (static_cast<std::size_t>(c[2]) * n[1] + c[1]) * n[0] + c[0]; }
+  std::size_t index(const Eigen::Vector3i &c) const
+  {
+    return (static_cast<std::size_t>(c[2]) * n[1] + c[1]) * n[0] + c[0];
+  }
 
   Box box;
   int n[3];

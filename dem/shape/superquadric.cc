@@ -12,7 +12,10 @@ namespace
 {
 
 /// sign(x) |x|^p, the power of Barr's parametrisation.
-double signed_power(const double x, const double p) { return std::copysign(std::pow(std::abs(x), p), x); }
+double signed_power(const double x, const double p)
+{
+  return std::copysign(std::pow(std::abs(x), p), x);
+}
 
 double beta_integral(const double x, const double y)
 {
@@ -50,8 +53,8 @@ bool Superquadric::is_sphere() const
 double inside_outside(const Superquadric &shape, const Vec3 &body_point)
 {
   const Vec3 x = body_point.cwiseQuotient(shape.half_axes).cwiseAbs();
-  const double plane = std::pow(std::pow(x[0], 2. / shape.eps1) + std::pow(x[1], 2. / shape.eps1),
-                                shape.eps1 / shape.eps2);
+  const double plane =
+      std::pow(std::pow(x[0], 2. / shape.eps1) + std::pow(x[1], 2. / shape.eps1), shape.eps1 / shape.eps2);
   return plane + std::pow(x[2], 2. / shape.eps2);
 }
 

@@ -18,15 +18,18 @@ struct SupportShape
 template <class Real>
 struct Support
 {
-  Real h;                                      ///< [m]
-  Real x1, x2, x3;                             ///< [m]
-  Real h11, h22, h33, h12, h13, h23;           ///< second derivatives of h [m]
+  Real h;                            ///< [m]
+  Real x1, x2, x3;                   ///< [m]
+  Real h11, h22, h33, h12, h13, h23; ///< second derivatives of h [m]
 };
 
 namespace detail
 {
 
-inline double select(const bool condition, const double a, const double b) { return condition ? a : b; }
+inline double select(const bool condition, const double a, const double b)
+{
+  return condition ? a : b;
+}
 
 /// Shares a/(a+b), b/(a+b) and log(a+b) from log a and log b, without overflow or loss.
 template <class Real>
@@ -55,7 +58,8 @@ struct LogSum
 ///   a = (r1|N1|)^q1, b = (r2|N2|)^q1, e = (r3|N3|)^q2, h = ((a+b)^(q2/q1) + e)^(1/q2).
 /// Worked in logarithms: eight transcendental calls, no overflow for any exponent in (0, 2).
 /// @param n1,n2,n3 normal in the body frame; any length > 0, h is homogeneous of degree one.
-/// A component that is exactly zero gives the middle of a flat region (X_i = 0) and a large but finite curvature radius.
+/// A component that is exactly zero gives the middle of a flat region (X_i = 0) and a large but finite curvature
+/// radius.
 template <class Real>
 Support<Real> support(const SupportShape<Real> &shape, const Real n1, const Real n2, const Real n3)
 {

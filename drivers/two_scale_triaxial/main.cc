@@ -16,9 +16,11 @@ using namespace bergamo::driver;
 /// Pictures of this run, and the comparison of the three models where the runs of the others lie beside it.
 std::vector<PlotJob> plot_jobs(const std::filesystem::path &folder)
 {
-  std::vector<PlotJob> jobs{{"stresses.py", {folder.string()}}, {"energy.py", {folder.string()}}, {"picture.py", {folder.string()}}};
+  std::vector<PlotJob> jobs{
+      {"stresses.py", {folder.string()}}, {"energy.py", {folder.string()}}, {"picture.py", {folder.string()}}};
   std::vector<std::string> others;
-  if (const auto parent = std::filesystem::absolute(folder).lexically_normal().parent_path(); std::filesystem::is_directory(parent))
+  if (const auto parent = std::filesystem::absolute(folder).lexically_normal().parent_path();
+      std::filesystem::is_directory(parent))
     for (const char *kind : {"two-scale", "two_scale_triaxial", "grains", "continuum"})
       if (const auto other = parent / kind;
           std::filesystem::exists(other / "summary.json") && !std::filesystem::equivalent(other, folder))
@@ -66,9 +68,10 @@ int job(const CommandLine &command_line)
 
 int main(int argc, char **argv)
 {
-  return run_driver(argc, argv,
-                    {"two_scale_triaxial",
-                     "Triaxial test on a cube of sand: grains in the upper half, continuum in the lower half, joined in "
-                     "an overlap (Arlequin method). Compresses the cube isotropically and then shears it."},
-                    job);
+  return run_driver(
+      argc, argv,
+      {"two_scale_triaxial",
+       "Triaxial test on a cube of sand: grains in the upper half, continuum in the lower half, joined in "
+       "an overlap (Arlequin method). Compresses the cube isotropically and then shears it."},
+      job);
 }

@@ -13,8 +13,8 @@ PackingStage begin_packing(const TriaxialParameters &parameters)
   std::mt19937_64 generator(parameters.seed);
   const double layer = parameters.element_size();
   const dem::Vec3 edges(parameters.edge, parameters.edge, parameters.grain_layers() * layer);
-  const std::vector<dem::Superquadric> shapes = dem::draw_grains(
-      parameters.distribution, parameters.expected_solid_fraction * edges.prod(), generator);
+  const std::vector<dem::Superquadric> shapes =
+      dem::draw_grains(parameters.distribution, parameters.expected_solid_fraction * edges.prod(), generator);
 
   const double widening = std::cbrt(parameters.expected_solid_fraction / parameters.initial_solid_fraction);
   const dem::Box box{dem::Vec3::Zero(), std::max(widening, 1.) * edges};
@@ -48,8 +48,8 @@ double max_overlap_over_radius(const dem::Simulation &grains)
   const auto &radius = grains.particles.bounding_radius;
   for (std::size_t k = 0; k < grains.pairs.list.size(); ++k)
     if (grains.pairs.state[k].touching != 0.)
-      largest = std::max(largest, grains.pairs.state[k].overlap /
-                                      std::min(radius[grains.pairs.list.first[k]], radius[grains.pairs.list.second[k]]));
+      largest = std::max(largest, grains.pairs.state[k].overlap / std::min(radius[grains.pairs.list.first[k]],
+                                                                           radius[grains.pairs.list.second[k]]));
   for (std::size_t k = 0; k < grains.wall_contacts.size(); ++k)
     if (grains.wall_contacts.state[k].touching != 0.)
       largest = std::max(largest, grains.wall_contacts.state[k].overlap / radius[grains.wall_contacts.particle[k]]);

@@ -20,9 +20,12 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Model", "kind", kind, "which models share the cube",
            {{"two-scale", ModelKind::two_scale}, {"grains", ModelKind::grains}, {"continuum", ModelKind::continuum}});
   file.add("Model", "edge", edge, "edge of the cube [m]", Range::positive());
-  file.add("Model", "elements per edge", elements_per_edge, "hexahedra along an edge of the cube", Range::between(2, 200));
-  file.add("Model", "continuum layers", continuum_layers, "layers of elements, from the bottom", Range::between(1, 200));
-  file.add("Model", "overlap layers", overlap_layers, "of these, the layers shared with the grains", Range::between(1, 200));
+  file.add("Model", "elements per edge", elements_per_edge, "hexahedra along an edge of the cube",
+           Range::between(2, 200));
+  file.add("Model", "continuum layers", continuum_layers, "layers of elements, from the bottom",
+           Range::between(1, 200));
+  file.add("Model", "overlap layers", overlap_layers, "of these, the layers shared with the grains",
+           Range::between(1, 200));
 
   file.add("Grains", "mean half-axes", {distribution.mean_half_axes.data(), 3}, "means of the three half-axes [m]",
            Range::positive());
@@ -35,7 +38,8 @@ void TriaxialParameters::declare(ParameterFile &file)
            Range::strictly_between(0, 2));
   file.add("Grains", "largest exponent", distribution.largest_exponent, "of the uniform distribution",
            Range::strictly_between(0, 2));
-  file.add("Grains", "Young's modulus", simulation.grain.young_modulus, "of the grains' mineral [Pa]", Range::positive());
+  file.add("Grains", "Young's modulus", simulation.grain.young_modulus, "of the grains' mineral [Pa]",
+           Range::positive());
   file.add("Grains", "Poisson's ratio", simulation.grain.poisson_ratio, "of the grains' mineral",
            {.lowest = 0, .highest = 0.5, .highest_included = false});
   file.add("Grains", "density", simulation.grain.density, "of the grains' mineral [kg/m3]", Range::positive());
@@ -68,12 +72,14 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Packing", "longest time", compression.longest_time, "simulated, then the compression has failed [s]",
            Range::positive());
   file.add("Packing", "time step", packing_time_step, "during the compression [s]", Range::positive());
-  file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance", Range::between(0, 0.1));
+  file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance",
+           Range::between(0, 0.1));
 
   file.add("Continuum", "Young's modulus", continuum.young_modulus, "[Pa]", Range::positive());
   file.add("Continuum", "Poisson's ratio", continuum.poisson_ratio, "",
            {.lowest = 0, .highest = 0.5, .highest_included = false});
-  file.add("Continuum", "friction angle", continuum.friction_angle, "[degree]", {.lowest = 0, .highest = 90, .highest_included = false});
+  file.add("Continuum", "friction angle", continuum.friction_angle, "[degree]",
+           {.lowest = 0, .highest = 90, .highest_included = false});
   file.add("Continuum", "dilation angle", continuum.dilation_angle, "at most the friction angle [degree]",
            {.lowest = 0, .highest = 90, .highest_included = false});
   file.add("Continuum", "cohesion", continuum.cohesion, "[Pa]", Range::non_negative());
@@ -101,8 +107,10 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Loading", "time step", simulation.time_step, "[s]", Range::positive());
 
   file.add("Output", "samples", n_samples, "rows of history.csv", Range::between(1, 1000000));
-  file.add("Output", "pictures", n_pictures, "times at which grains and mesh are written for ParaView", Range::between(1, 10000));
-  file.add("Output", "snapshot interval", snapshot_interval, "wall clock time between snapshots [s]", Range::positive());
+  file.add("Output", "pictures", n_pictures, "times at which grains and mesh are written for ParaView",
+           Range::between(1, 10000));
+  file.add("Output", "snapshot interval", snapshot_interval, "wall clock time between snapshots [s]",
+           Range::positive());
 }
 
 void TriaxialParameters::validate() const
@@ -117,11 +125,13 @@ void TriaxialParameters::validate() const
   if (kind == ModelKind::two_scale)
   {
     if (continuum_layers >= elements_per_edge)
-      fail("Model/continuum layers is " + std::to_string(continuum_layers) + " of " + std::to_string(elements_per_edge) +
+      fail("Model/continuum layers is " + std::to_string(continuum_layers) + " of " +
+           std::to_string(elements_per_edge) +
            " layers (Model/elements per edge): at least one layer must be left to the grains alone");
     if (overlap_layers >= continuum_layers)
       fail("Model/overlap layers is " + std::to_string(overlap_layers) + ", as thick as the continuum of " +
-           std::to_string(continuum_layers) + " layers or thicker: at least one layer must be left to the continuum alone");
+           std::to_string(continuum_layers) +
+           " layers or thicker: at least one layer must be left to the continuum alone");
     if (element_size() < 2. * distribution.mean_half_axes.mean())
       fail("the elements are smaller than a grain: edge over elements per edge is " + std::to_string(element_size()) +
            " m; choose fewer Model/elements per edge or a larger Model/edge");
@@ -143,8 +153,8 @@ void TriaxialParameters::validate() const
     const double modulus = 0.5 * simulation.grain.young_modulus / (1. - std::pow(simulation.grain.poisson_ratio, 2));
     const double stiffness = 2. * modulus * std::sqrt(0.5 * radius * 1e-5 * radius);
     const double limit = 2. * std::sqrt(0.5 * mass / stiffness);
-    for (const auto &[name, step] : {std::pair("Loading/time step", simulation.time_step),
-                                     std::pair("Packing/time step", packing_time_step)})
+    for (const auto &[name, step] :
+         {std::pair("Loading/time step", simulation.time_step), std::pair("Packing/time step", packing_time_step)})
       if (step > limit)
       {
         std::ostringstream message;

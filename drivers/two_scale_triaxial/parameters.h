@@ -37,7 +37,7 @@ struct TriaxialParameters
   double initial_solid_fraction = 0.2;   ///< of the random addition
   double expected_solid_fraction = 0.67; ///< sets the number of grains
   double packing_friction = 0.15;
-  double packing_time_step = 3e-7;       ///< [s]
+  double packing_time_step = 3e-7; ///< [s]
   double packing_overlap_tolerance = 5e-2;
   std::uint64_t seed = 1;
   dem::CompressionParameters compression;

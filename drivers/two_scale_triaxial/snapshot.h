@@ -15,13 +15,13 @@ namespace bergamo::driver
 /// What the loading stage needs beside the models to go on.
 struct LoadingState
 {
-  std::int64_t step = 0;                  ///< steps done in this stage
-  dem::Box box;                           ///< of the grains before the loading
-  std::vector<dem::Vec3> reference_by_id; ///< the grains' places then
-  double first_balance = 0.;              ///< energy balance of the first sample [J]
-  double largest_residual = 0.;           ///< over the work done so far
-  double smallest_stable_step = 0.;       ///< [s]; 0 before the first estimate
-  std::vector<double> picture_times;      ///< of the frames written [s]
+  std::int64_t step = 0;                                ///< steps done in this stage
+  dem::Box box;                                         ///< of the grains before the loading
+  std::vector<dem::Vec3> reference_by_id;               ///< the grains' places then
+  double first_balance = 0.;                            ///< energy balance of the first sample [J]
+  double largest_residual = 0.;                         ///< over the work done so far
+  double smallest_stable_step = 0.;                     ///< [s]; 0 before the first estimate
+  std::vector<double> picture_times;                    ///< of the frames written [s]
   double solid_fraction = 0., coordination_number = 0.; ///< of the packing
   std::int64_t packing_steps = 0;
 };

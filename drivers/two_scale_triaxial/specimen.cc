@@ -50,7 +50,8 @@ dem::Box whole_cube(const TriaxialParameters &parameters, dem::Box box)
 Specimen::Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const dem::Box &box,
                    const std::vector<dem::Vec3> &reference_by_id)
     : model(std::move(grains), make_body(parameters, whole_cube(parameters, box)), parameters.simulation.time_step),
-      cube(whole_cube(parameters, box)), edges(cube.edges()), current_edges(edges), step(parameters.simulation.time_step)
+      cube(whole_cube(parameters, box)), edges(cube.edges()), current_edges(edges),
+      step(parameters.simulation.time_step)
 {
   const bool is_joined = parameters.kind == ModelKind::two_scale;
   if (fe::ExplicitBody *body = model.body())

@@ -16,7 +16,7 @@ struct SpecimenEnergy
 {
   double kinetic = 0., grains_elastic = 0., continuum_elastic = 0., coupling = 0.;
   double friction_loss = 0., viscous_loss = 0., plastic_loss = 0.;
-  double wall_work = 0.; ///< of the walls on grains and of the boundary on the continuum
+  double wall_work = 0.;                         ///< of the walls on grains and of the boundary on the continuum
   double gravity_work = 0., curvature_work = 0.; ///< see dem::ContactLosses
 
   double balance() const
@@ -26,8 +26,8 @@ struct SpecimenEnergy
   }
 };
 
-/// The cube under test: grains above, continuum below, joined in the overlap; or one of them alone. Its outer faces move
-/// with prescribed strains: lower faces stand still, upper ones move.
+/// The cube under test: grains above, continuum below, joined in the overlap; or one of them alone. Its outer faces
+/// move with prescribed strains: lower faces stand still, upper ones move.
 class Specimen
 {
 public:
@@ -53,8 +53,8 @@ public:
 private:
   struct Face
   {
-    std::optional<std::size_t> wall;                         ///< of the grains
-    std::optional<fe::ExplicitBody::Constraint> constraint;  ///< of the continuum
+    std::optional<std::size_t> wall;                        ///< of the grains
+    std::optional<fe::ExplicitBody::Constraint> constraint; ///< of the continuum
   };
 
   void join(const TriaxialParameters &parameters, const std::vector<dem::Vec3> &reference_by_id, double layer);

@@ -20,10 +20,10 @@ struct StrainProgram
   double isotropic_volumetric_strain = -0.005;
   double isotropic_time = 0.006; ///< [s]
   StrainPath path = StrainPath::compression;
-  double axial_strain = -0.015;           ///< of the shear phase, along z
+  double axial_strain = -0.015;            ///< of the shear phase, along z
   double volumetric_strain_change = 0.005; ///< size of the change in the shear phase; 0 is taken for path 2
   double shear_time = 0.012;               ///< [s]
-  double ramp = 0.1;                      ///< share of a phase in which it speeds up, and again slows down
+  double ramp = 0.1;                       ///< share of a phase in which it speeds up, and again slows down
 
   /// Throws ConfigError for a value out of its range.
   void validate() const;

@@ -19,12 +19,28 @@ namespace bergamo::driver
 namespace
 {
 
-const std::vector<std::string> columns = {
-    "time_s", "stage", "strain_1", "strain_2", "strain_3", "stress_1_Pa", "stress_2_Pa", "stress_3_Pa",
-    "energy_kinetic_J", "energy_grains_elastic_J", "energy_continuum_elastic_J", "energy_coupling_J",
-    "energy_friction_loss_J", "energy_viscous_loss_J", "energy_plastic_loss_J", "energy_wall_work_J",
-    "energy_gravity_work_J", "energy_curvature_work_J", "energy_residual_J", "coordination_number", "max_overlap_over_radius",
-    "coupling_difference_m"};
+const std::vector<std::string> columns = {"time_s",
+                                          "stage",
+                                          "strain_1",
+                                          "strain_2",
+                                          "strain_3",
+                                          "stress_1_Pa",
+                                          "stress_2_Pa",
+                                          "stress_3_Pa",
+                                          "energy_kinetic_J",
+                                          "energy_grains_elastic_J",
+                                          "energy_continuum_elastic_J",
+                                          "energy_coupling_J",
+                                          "energy_friction_loss_J",
+                                          "energy_viscous_loss_J",
+                                          "energy_plastic_loss_J",
+                                          "energy_wall_work_J",
+                                          "energy_gravity_work_J",
+                                          "energy_curvature_work_J",
+                                          "energy_residual_J",
+                                          "coordination_number",
+                                          "max_overlap_over_radius",
+                                          "coupling_difference_m"};
 
 std::string picture_name(const char *model, const std::size_t number)
 {
@@ -65,8 +81,8 @@ TriaxialRun::TriaxialRun(const TriaxialParameters &p, const CommandLine &command
     const SnapshotReader reader(folder.snapshot(), parameter_text);
     if (reader.stage() == Stage::packing)
     {
-      packing.emplace(PackingStage{reader.grains(parameters.packing_simulation()),
-                                   dem::Compression(parameters.compression)});
+      packing.emplace(
+          PackingStage{reader.grains(parameters.packing_simulation()), dem::Compression(parameters.compression)});
       reader.read(packing->compression);
     }
     else
@@ -177,8 +193,9 @@ void TriaxialRun::begin_loading()
 
 bool TriaxialRun::run_loading()
 {
-  History history = state.step > 0 ? History::continued(folder.history(), columns, (state.step - 0.5) * specimen->time_step())
-                                   : History(folder.history(), columns);
+  History history = state.step > 0
+                        ? History::continued(folder.history(), columns, (state.step - 0.5) * specimen->time_step())
+                        : History(folder.history(), columns);
   const double dt = specimen->time_step();
   const auto n_steps = static_cast<std::int64_t>(std::ceil(parameters.program.end_time() / dt - 1e-9));
   const std::int64_t sample_interval = std::max<std::int64_t>(1, n_steps / parameters.n_samples);
@@ -187,8 +204,9 @@ bool TriaxialRun::run_loading()
   const std::int64_t watch_interval = std::max<std::int64_t>(1, n_steps / 10);
   const dem::Simulation *grains = specimen->model.grains();
   const std::int64_t n_particles = grains ? grains->particles.size() : 0;
-  const auto here = [&]
-  { return ProgressState{static_cast<double>(state.step) / n_steps, state.step * dt, state.step, n_particles}; };
+  const auto here = [&] {
+    return ProgressState{static_cast<double>(state.step) / n_steps, state.step * dt, state.step, n_particles};
+  };
 
   progress.begin_stage("loading", here());
   for (;; ++state.step, ++steps_here)
@@ -246,10 +264,28 @@ void TriaxialRun::sample(const double time, const dem::Vec3 &strain, History &hi
 
   const SpecimenEnergy &e = last_energy;
   const double coordination = grains ? coordination_number(*grains) : 0.;
-  const double row[] = {time, static_cast<double>(parameters.program.stage(time)), strain[0], strain[1], strain[2],
-                        last_stress[0], last_stress[1], last_stress[2], e.kinetic, e.grains_elastic,
-                        e.continuum_elastic, e.coupling, e.friction_loss, e.viscous_loss, e.plastic_loss, e.wall_work,
-                        e.gravity_work, e.curvature_work, residual, coordination, overlap, largest_difference};
+  const double row[] = {time,
+                        static_cast<double>(parameters.program.stage(time)),
+                        strain[0],
+                        strain[1],
+                        strain[2],
+                        last_stress[0],
+                        last_stress[1],
+                        last_stress[2],
+                        e.kinetic,
+                        e.grains_elastic,
+                        e.continuum_elastic,
+                        e.coupling,
+                        e.friction_loss,
+                        e.viscous_loss,
+                        e.plastic_loss,
+                        e.wall_work,
+                        e.gravity_work,
+                        e.curvature_work,
+                        residual,
+                        coordination,
+                        overlap,
+                        largest_difference};
   history.append(row);
 }
 

@@ -28,27 +28,6 @@ TEST_CASE("particle weights follow a linear field and stay within their bounds")
     CHECK(w <= 1.);
     CHECK(w == Approx(1.).epsilon(1e-14));
   }
-  CHECK(continuum_weight(0.25) == 0.75);
-  CHECK(continuum_weight(1.) == default_min_weight);
-  CHECK(continuum_weight(0.) == 1.);
-}
-
-TEST_CASE("a contact's weight lies between those of its particles")
-{
-  CHECK(contact_weight(0.2, 0.8, 0.) == 0.2);
-  CHECK(contact_weight(0.2, 0.8, 1.) == 0.8);
-  CHECK(contact_weight(0.2, 0.8, 0.25) == Approx(0.35));
-  CHECK(contact_weight(0.2, 0.8, -3.) == 0.2);
-  CHECK(contact_weight(0.2, 0.8, 7.) == 0.8);
-
-  using Pack = Eigen::Array<double, 8, 1>;
-  const Pack w_a = Pack::Constant(0.2), w_b = Pack::LinSpaced(0.1, 1.), fraction = Pack::LinSpaced(-0.5, 1.5);
-  const Pack weight = contact_weight(w_a, w_b, fraction);
-  for (int i = 0; i < 8; ++i)
-    CHECK(weight[i] == Approx(contact_weight(w_a[i], w_b[i], fraction[i])));
-
-  const Eigen::Vector3d a(1., 2., 3.), b(2., 4., 3.), aside(2., -1., 5.);
-  CHECK(centre_line_fraction(a, b, Eigen::Vector3d(a + 0.3 * (b - a) + aside)) == Approx(0.3));
 }
 
 TEST_CASE("bad weights are named")

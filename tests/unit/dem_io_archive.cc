@@ -1,7 +1,9 @@
 #include "dem/core/error.h"
 #include "dem/io/archive.h"
 
+#include "tests/temporary_folder.h"
 #include <bit>
+
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <cstdlib>
@@ -20,28 +22,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-/// A folder of the test's own that goes with it.
-struct Folder
-{
-  fs::path path;
-  Folder()
-  {
-    std::string name = (fs::temp_directory_path() / "bergamo-archive-XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  ~Folder()
-  {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
-
-std::string read_all(const fs::path &path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 void write_all(const fs::path &path, const std::string &bytes)
 {
@@ -100,8 +80,8 @@ std::string message_of(const std::function<void()> &action)
 
 TEST_CASE("an archive gives back every bit")
 {
-  const Folder folder;
-  const fs::path path = folder.path / "snapshot.h5";
+  const TemporaryFolder folder;
+  const fs::path path = folder / "snapshot.h5";
   const std::vector<double> none, many = many_doubles();
   const std::vector<std::int64_t> integers{0, -1, std::numeric_limits<std::int64_t>::min(),
                                            std::numeric_limits<std::int64_t>::max()};
@@ -149,18 +129,18 @@ TEST_CASE("an archive gives back every bit")
 
 TEST_CASE("equal content makes equal archives, byte for byte")
 {
-  const Folder folder;
-  write_example(folder.path / "a.h5");
-  write_example(folder.path / "b.h5");
-  CHECK(read_all(folder.path / "a.h5") == read_all(folder.path / "b.h5"));
+  const TemporaryFolder folder;
+  write_example(folder / "a.h5");
+  write_example(folder / "b.h5");
+  CHECK(content_of(folder / "a.h5") == content_of(folder / "b.h5"));
 }
 
 TEST_CASE("an archive that is not committed leaves the older one alone")
 {
-  const Folder folder;
-  const fs::path path = folder.path / "snapshot.h5", partial = folder.path / "snapshot.h5.partial";
+  const TemporaryFolder folder;
+  const fs::path path = folder / "snapshot.h5", partial = folder / "snapshot.h5.partial";
   write_example(path);
-  const std::string before = read_all(path);
+  const std::string before = content_of(path);
 
   SECTION("destroyed")
   {
@@ -185,18 +165,18 @@ TEST_CASE("an archive that is not committed leaves the older one alone")
     REQUIRE(WIFSIGNALED(status));
     CHECK(fs::exists(partial));
   }
-  CHECK(read_all(path) == before);
+  CHECK(content_of(path) == before);
   write_example(path); // over whatever was left
-  CHECK(read_all(path) == before);
+  CHECK(content_of(path) == before);
   CHECK_FALSE(fs::exists(partial));
 }
 
 TEST_CASE("a truncated or lengthened archive is refused")
 {
-  const Folder folder;
-  const fs::path path = folder.path / "snapshot.h5", cut = folder.path / "cut.h5";
+  const TemporaryFolder folder;
+  const fs::path path = folder / "snapshot.h5", cut = folder / "cut.h5";
   write_example(path);
-  const std::string whole = read_all(path);
+  const std::string whole = content_of(path);
   for (std::size_t length = 0; length < whole.size(); length += 97)
   {
     write_all(cut, whole.substr(0, length));
@@ -210,10 +190,10 @@ TEST_CASE("a truncated or lengthened archive is refused")
 
 TEST_CASE("no flipped bit of an archive goes unseen")
 {
-  const Folder folder;
-  const fs::path path = folder.path / "snapshot.h5", changed = folder.path / "changed.h5";
+  const TemporaryFolder folder;
+  const fs::path path = folder / "snapshot.h5", changed = folder / "changed.h5";
   write_example(path, 200);
-  const std::string whole = read_all(path);
+  const std::string whole = content_of(path);
   std::size_t n_seen = 0, n_tried = 0;
   for (std::size_t place = 0; place < whole.size(); place += place < 1024 ? 1 : 3)
   {
@@ -245,17 +225,17 @@ TEST_CASE("no flipped bit of an archive goes unseen")
 
 TEST_CASE("foreign files are refused with the reason")
 {
-  const Folder folder;
-  const fs::path path = folder.path / "snapshot.h5", foreign = folder.path / "foreign.h5";
+  const TemporaryFolder folder;
+  const fs::path path = folder / "snapshot.h5", foreign = folder / "foreign.h5";
   write_example(path);
-  CHECK_THROWS_WITH(ArchiveReader(folder.path / "nowhere.h5", "test"),
+  CHECK_THROWS_WITH(ArchiveReader(folder / "nowhere.h5", "test"),
                     Catch::Contains("nowhere.h5") && Catch::Contains("No such file"));
-  CHECK_THROWS_WITH(ArchiveReader(folder.path, "test"), Catch::Contains("folder"));
+  CHECK_THROWS_WITH(ArchiveReader(folder.path(), "test"), Catch::Contains("folder"));
   write_all(foreign, "");
   CHECK_THROWS_WITH(ArchiveReader(foreign, "test"), Catch::Contains("no archive of Bergamo"));
   write_all(foreign, std::string(5000, 'x'));
   CHECK_THROWS_WITH(ArchiveReader(foreign, "test"), Catch::Contains("no archive of Bergamo"));
-  write_all(foreign, read_all(path).substr(512)); // HDF5 without a seal
+  write_all(foreign, content_of(path).substr(512)); // HDF5 without a seal
   CHECK_THROWS_WITH(ArchiveReader(foreign, "test"), Catch::Contains("an HDF5 file, but no archive"));
   CHECK_THROWS_WITH(ArchiveReader(path, "another kind"),
                     Catch::Contains("'test'") && Catch::Contains("'another kind'"));
@@ -264,10 +244,10 @@ TEST_CASE("foreign files are refused with the reason")
 TEST_CASE("an archive of a newer format is refused as such")
 {
   // The seal of a later format, its checksum made here: word by word, the format number as the seed.
-  const Folder folder;
-  const fs::path path = folder.path / "snapshot.h5";
+  const TemporaryFolder folder;
+  const fs::path path = folder / "snapshot.h5";
   write_example(path);
-  std::string bytes = read_all(path);
+  std::string bytes = content_of(path);
   std::uint64_t sum = 2;
   for (std::size_t place = 512; place < bytes.size(); place += 8)
   {
@@ -287,8 +267,8 @@ TEST_CASE("an archive of a newer format is refused as such")
 
 TEST_CASE("what an archive lacks, or holds otherwise, is named")
 {
-  const Folder folder;
-  const fs::path path = folder.path / "snapshot.h5";
+  const TemporaryFolder folder;
+  const fs::path path = folder / "snapshot.h5";
   write_example(path);
   const ArchiveReader reader(path, "test");
   CHECK_THROWS_WITH(reader.read_doubles("grains/velocity"),
@@ -300,7 +280,7 @@ TEST_CASE("what an archive lacks, or holds otherwise, is named")
   CHECK_THROWS_WITH(reader.read_doubles("time"), Catch::Contains("no array"));
   CHECK_THROWS_WITH(reader.read_text("time"), Catch::Contains("no single text"));
 
-  ArchiveWriter writer(folder.path / "other.h5", "test");
+  ArchiveWriter writer(folder / "other.h5", "test");
   writer.write("time", 1.);
   CHECK_THROWS_WITH(writer.write("time", 2.), Catch::Contains("'time' was written before"));
   CHECK_THROWS_AS(writer.write("time/of/day", 2.), RunError);
@@ -308,34 +288,34 @@ TEST_CASE("what an archive lacks, or holds otherwise, is named")
   writer.commit();
   CHECK_THROWS_AS(writer.write("late", 2.), RunError);
   CHECK_THROWS_AS(writer.commit(), RunError);
-  CHECK(ArchiveReader(folder.path / "other.h5", "test").read_double("time") == 1.);
+  CHECK(ArchiveReader(folder / "other.h5", "test").read_double("time") == 1.);
 }
 
 TEST_CASE("a folder that cannot be written to is known at once")
 {
-  const Folder folder;
-  CHECK_THROWS_WITH(ArchiveWriter(folder.path / "missing/snapshot.h5", "test"),
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(ArchiveWriter(folder / "missing/snapshot.h5", "test"),
                     Catch::Contains("missing/snapshot.h5") && Catch::Contains("No such file or directory") &&
                         Catch::Contains("create the folder"));
-  CHECK_THROWS_WITH(ArchiveWriter(folder.path, "test"), Catch::Contains("Is a directory"));
+  CHECK_THROWS_WITH(ArchiveWriter(folder.path(), "test"), Catch::Contains("Is a directory"));
 
   // Rights do not bind the superuser: become nobody for a moment.
   const bool superuser = ::geteuid() == 0;
-  fs::permissions(folder.path, fs::perms(0555));
+  fs::permissions(folder.path(), fs::perms(0555));
   if (superuser && ::seteuid(65534) != 0)
     WARN("cannot give up the superuser's rights: read-only folder not tried");
   else
-    CHECK_THROWS_WITH(ArchiveWriter(folder.path / "snapshot.h5", "test"),
+    CHECK_THROWS_WITH(ArchiveWriter(folder / "snapshot.h5", "test"),
                       Catch::Contains("Permission denied") && Catch::Contains("may write to"));
   if (superuser)
     REQUIRE(::seteuid(0) == 0);
-  fs::permissions(folder.path, fs::perms(0755));
+  fs::permissions(folder.path(), fs::perms(0755));
 }
 
 TEST_CASE("a full disk is an error and the older archive survives")
 {
-  const Folder folder;
-  const fs::path path = folder.path / "snapshot.h5";
+  const TemporaryFolder folder;
+  const fs::path path = folder / "snapshot.h5";
   const auto write_too_much = [&]
   {
     ArchiveWriter writer(path, "test");
@@ -346,7 +326,7 @@ TEST_CASE("a full disk is an error and the older archive survives")
   SECTION("limit on the file size")
   {
     write_example(path);
-    const std::string before = read_all(path);
+    const std::string before = content_of(path);
     struct rlimit old;
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &old) == 0);
     const auto old_action = std::signal(SIGXFSZ, SIG_IGN);
@@ -360,20 +340,20 @@ TEST_CASE("a full disk is an error and the older archive survives")
     std::signal(SIGXFSZ, old_action);
     CHECK_THAT(message, Catch::Contains("snapshot.h5") && Catch::Contains("File too large") &&
                             Catch::Contains("another output folder"));
-    CHECK(read_all(path) == before);
+    CHECK(content_of(path) == before);
     CHECK_FALSE(fs::exists(path.string() + ".partial"));
   }
   SECTION("full file system")
   {
-    if (::mount("tmpfs", folder.path.c_str(), "tmpfs", 0, "size=128k") != 0)
+    if (::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=128k") != 0)
       WARN("cannot mount a small file system: full disk tried by the file size limit alone");
     else
     {
       write_example(path);
-      const std::string before = read_all(path);
+      const std::string before = content_of(path);
       const std::string message = message_of(write_too_much);
-      const bool whole = read_all(path) == before, left_over = fs::exists(path.string() + ".partial");
-      ::umount(folder.path.c_str());
+      const bool whole = content_of(path) == before, left_over = fs::exists(path.string() + ".partial");
+      ::umount(folder.path().c_str());
       CHECK_THAT(message, Catch::Contains("No space left") && Catch::Contains("free some space"));
       CHECK(whole);
       CHECK_FALSE(left_over);

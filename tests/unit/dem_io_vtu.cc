@@ -2,6 +2,8 @@
 #include "dem/io/pvd.h"
 #include "dem/io/vtu.h"
 
+#include "tests/temporary_folder.h"
+
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>
@@ -13,27 +15,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-struct Folder
-{
-  fs::path path;
-  Folder()
-  {
-    std::string name = (fs::temp_directory_path() / "bergamo-vtu-XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  ~Folder()
-  {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
-
-std::string read_all(const fs::path &path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Just enough of a reader: the arrays by name from the raw binary part.
 struct Vtu
@@ -95,15 +76,15 @@ Particles three_grains()
 
 TEST_CASE("grains are written as closed surfaces of their true volume")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Particles particles = three_grains();
   const std::vector<double> pressure{1., 2., 3.};
   const std::vector<GrainField> fields{{"p < \"5\" & more [Pa]", pressure}};
-  const fs::path path = folder.path / "grains.vtu";
+  const fs::path path = folder / "grains.vtu";
   write_grains_vtu(particles, fields, path);
   CHECK_FALSE(fs::exists(path.string() + ".partial"));
 
-  const Vtu vtu(read_all(path));
+  const Vtu vtu(content_of(path));
   const auto points = vtu.array<float>("Points");
   const auto corners = vtu.array<std::int32_t>("connectivity");
   const auto ends = vtu.array<std::int32_t>("offsets");
@@ -150,10 +131,10 @@ TEST_CASE("grains are written as closed surfaces of their true volume")
 
 TEST_CASE("every written point lies on its grain")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Particles particles = three_grains();
-  write_grains_vtu(particles, {}, folder.path / "grains.vtu", 4);
-  const Vtu vtu(read_all(folder.path / "grains.vtu"));
+  write_grains_vtu(particles, {}, folder / "grains.vtu", 4);
+  const Vtu vtu(content_of(folder / "grains.vtu"));
   const auto points = vtu.array<float>("Points");
   const std::size_t n_each = vtu.n_points / 3;
   for (std::size_t i = 0; i < vtu.n_points; ++i)
@@ -169,14 +150,14 @@ TEST_CASE("every written point lies on its grain")
 
 TEST_CASE("the volume drawn stays near the true one over all shapes")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   Particles particles;
   std::vector<double> exponents{0.1, 0.3, 0.6, 1., 1.3, 1.7};
   for (const double eps1 : exponents)
     for (const double eps2 : exponents)
       particles.add({Vec3(1.1, 0.8, 0.6), eps1, eps2}, 1., Vec3::Zero(), Quaternion::Identity());
-  write_grains_vtu(particles, {}, folder.path / "grains.vtu");
-  const Vtu vtu(read_all(folder.path / "grains.vtu"));
+  write_grains_vtu(particles, {}, folder / "grains.vtu");
+  const Vtu vtu(content_of(folder / "grains.vtu"));
   const auto points = vtu.array<float>("Points");
   const auto corners = vtu.array<std::int32_t>("connectivity");
   const auto ends = vtu.array<std::int32_t>("offsets");
@@ -194,9 +175,9 @@ TEST_CASE("the volume drawn stays near the true one over all shapes")
 
 TEST_CASE("no grains make a file without cells")
 {
-  const Folder folder;
-  write_grains_vtu({}, {}, folder.path / "grains.vtu");
-  const Vtu vtu(read_all(folder.path / "grains.vtu"));
+  const TemporaryFolder folder;
+  write_grains_vtu({}, {}, folder / "grains.vtu");
+  const Vtu vtu(content_of(folder / "grains.vtu"));
   CHECK(vtu.n_points == 0);
   CHECK(vtu.n_cells == 0);
   CHECK(vtu.array<float>("Points").empty());
@@ -204,24 +185,24 @@ TEST_CASE("no grains make a file without cells")
 
 TEST_CASE("mistakes in writing grains are named")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Particles particles = three_grains();
   const std::vector<double> two{1., 2.};
   const std::vector<GrainField> fields{{"pressure", two}};
-  CHECK_THROWS_WITH(write_grains_vtu(particles, fields, folder.path / "grains.vtu"),
+  CHECK_THROWS_WITH(write_grains_vtu(particles, fields, folder / "grains.vtu"),
                     Catch::Contains("'pressure'") && Catch::Contains("2 values for 3 grains"));
-  CHECK_THROWS_AS(write_grains_vtu(particles, {}, folder.path / "grains.vtu", 5), ConfigError);
-  CHECK_THROWS_AS(write_grains_vtu(particles, {}, folder.path / "no/grains.vtu"), RunError);
-  CHECK_THROWS_AS(write_pvd(folder.path / "no/grains.pvd", {}), RunError);
-  CHECK(fs::is_empty(folder.path));
+  CHECK_THROWS_AS(write_grains_vtu(particles, {}, folder / "grains.vtu", 5), ConfigError);
+  CHECK_THROWS_AS(write_grains_vtu(particles, {}, folder / "no/grains.vtu"), RunError);
+  CHECK_THROWS_AS(write_pvd(folder / "no/grains.pvd", {}), RunError);
+  CHECK(fs::is_empty(folder.path()));
 }
 
 TEST_CASE("a collection lists its frames with their times to the last digit")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<std::pair<double, std::string>> frames{{0., "grains_0.vtu"}, {0.1 + 0.2, "a&b.vtu"}};
-  write_pvd(folder.path / "grains.pvd", frames);
-  const std::string text = read_all(folder.path / "grains.pvd");
+  write_pvd(folder / "grains.pvd", frames);
+  const std::string text = content_of(folder / "grains.pvd");
   CHECK_THAT(text, Catch::Contains("<VTKFile type=\"Collection\"") &&
                        Catch::Contains("timestep=\"0\" part=\"0\" file=\"grains_0.vtu\"") &&
                        Catch::Contains("timestep=\"0.30000000000000004\"") && Catch::Contains("a&amp;b.vtu") &&

@@ -1,7 +1,9 @@
 #include "dem/neighbour/cell_grid.h"
 #include "dem/neighbour/verlet_list.h"
 
+#include "tests/threads.h"
 #include <algorithm>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -54,18 +56,6 @@ Pairs pairs_of(const VerletList &list)
     pairs.emplace_back(list.first[k], list.second[k]);
   return pairs;
 }
-
-class Threads
-{
-public:
-  explicit Threads(const int n) : before(omp_get_max_threads()) { omp_set_num_threads(n); }
-  ~Threads() { omp_set_num_threads(before); }
-  Threads(const Threads &) = delete;
-  Threads &operator=(const Threads &) = delete;
-
-private:
-  int before;
-};
 
 /// The list is the brute-force one in its order, and its rows point into it.
 void check_list(const Cloud &cloud, const double verlet_distance)

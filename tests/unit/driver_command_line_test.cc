@@ -1,6 +1,6 @@
 #include "dem/core/error.h"
 #include "drivers/common/command_line.h"
-#include "tests/unit/driver_temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,7 @@
 #include "drivers/common/history.h"
 #include "drivers/common/run_folder.h"
 #include "drivers/common/summary.h"
-#include "tests/unit/driver_temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "dem/core/error.h"
 #include "drivers/common/nearest_name.h"
 #include "drivers/common/parameter_file.h"
-#include "tests/unit/driver_temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

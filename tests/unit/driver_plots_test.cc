@@ -1,5 +1,5 @@
 #include "drivers/common/plots.h"
-#include "tests/unit/driver_temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

@@ -87,8 +87,8 @@ TEST_CASE("a common translation or homogeneous strain gives no coupling force")
   const auto projection = GENERATE(coupling::Projection::lumped, coupling::Projection::consistent);
   Mat3 strain;
   strain << -0.01, 0.004, 0.002, 0.004, 0.006, -0.003, 0.002, -0.003, -0.012;
-  const auto [translation, gradient] = GENERATE_COPY(std::pair(Vec3(1e-4, -2e-4, 3e-4), Mat3(Mat3::Zero())),
-                                                     std::pair(Vec3(0., 0., 0.), strain));
+  const auto [translation, gradient] =
+      GENERATE_COPY(std::pair(Vec3(1e-4, -2e-4, 3e-4), Mat3(Mat3::Zero())), std::pair(Vec3(0., 0., 0.), strain));
   TwoScaleModel model = make_model(projection);
   REQUIRE(model.coupling()->overlap().n_particles() > 10);
 
@@ -159,8 +159,8 @@ TEST_CASE("the coupled step keeps momentum and closes the energy balance")
   const auto balance = [&]
   {
     const auto e = model.body()->energy();
-    return e.kinetic + e.elastic + e.plastic_dissipation + e.viscous_dissipation +
-           model.grains()->energy().kinetic + model.grains()->energy().normal + model.grains()->energy().tangential +
+    return e.kinetic + e.elastic + e.plastic_dissipation + e.viscous_dissipation + model.grains()->energy().kinetic +
+           model.grains()->energy().normal + model.grains()->energy().tangential +
            model.grains()->energy().friction_loss + model.grains()->energy().viscous_loss +
            model.penalty_state().energy;
   };

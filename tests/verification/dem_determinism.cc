@@ -4,7 +4,11 @@
 #include "dem/packing/random_addition.h"
 #include "dem/simulation.h"
 
+#include "tests/threads.h"
 #include <algorithm>
+
+#include "tests/temporary_folder.h"
+
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstdlib>
@@ -52,34 +56,6 @@ std::uint64_t hash_of(const Simulation &s)
                                s.wall_contacts.losses.viscous});
   return hash.value;
 }
-
-class Threads
-{
-public:
-  explicit Threads(const int n) : before(omp_get_max_threads()) { omp_set_num_threads(n); }
-  ~Threads() { omp_set_num_threads(before); }
-  Threads(const Threads &) = delete;
-  Threads &operator=(const Threads &) = delete;
-
-private:
-  int before;
-};
-
-/// A folder of the test's own that goes with it.
-struct Folder
-{
-  std::filesystem::path path;
-  Folder()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "bergamo-restart-XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  ~Folder()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
 
 /// Soft grains, so that a few thousand steps make a packing.
 SimulationParameters soft_parameters()
@@ -171,11 +147,11 @@ TEST_CASE("a restart goes on with the same bits")
   rougher.friction = 0.7;
   straight.change(rougher);
 
-  const Folder folder;
-  ArchiveWriter writer(folder.path / "snapshot.h5", "restart test");
+  const TemporaryFolder folder;
+  ArchiveWriter writer(folder / "snapshot.h5", "restart test");
   write_simulation(writer, straight);
   writer.commit();
-  const auto restarted = read_simulation(ArchiveReader(folder.path / "snapshot.h5", "restart test"), soft_parameters());
+  const auto restarted = read_simulation(ArchiveReader(folder / "snapshot.h5", "restart test"), soft_parameters());
   Compression resumed(fast_compression());
   resumed.n_checks_passed = compression.n_checks_passed;
   resumed.unbalance = compression.unbalance;

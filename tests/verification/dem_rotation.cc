@@ -1,7 +1,9 @@
 #include "dem/motion/rotation.h"
 #include "dem/simulation.h"
 
+#include "tests/threads.h"
 #include <algorithm>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -12,16 +14,6 @@ using namespace bergamo::dem;
 
 namespace
 {
-
-/// A team of threads costs more than it gains on one or two grains.
-struct OneThread
-{
-  OneThread() : before(omp_get_max_threads()) { omp_set_num_threads(1); }
-  ~OneThread() { omp_set_num_threads(before); }
-  OneThread(const OneThread &) = delete;
-  OneThread &operator=(const OneThread &) = delete;
-  int before;
-};
 
 constexpr double pi = std::numbers::pi;
 
@@ -65,7 +57,7 @@ constexpr double time_span = 20.;
 
 TEST_CASE("a rotation by a vector agrees with the axis-angle form through the switch to the series")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Series to 1e-16 below an angle of 0.01, closed form above; no jump at the switch.
   const Vec3 axis = Vec3(1., -2., 0.5).normalized();
   for (double angle : {0., 1e-12, 1e-5, 9.99e-3, 1.001e-2, 0.3, 3., 7.})
@@ -78,7 +70,7 @@ TEST_CASE("a rotation by a vector agrees with the axis-angle form through the sw
 
 TEST_CASE("torque-free rotation is of fourth order in the time step")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Runge-Kutta's order 4 for the orientation; the energy, a function of it, is at least as good. The error is measured
   // against the same scheme with steps 32 times shorter than the shortest, whose own error is 1e-6 of it.
   for (const Vec3 &inertia : {Vec3(1., 2.3, 3.1), Vec3(1., 1., 2.), Vec3(2., 1., 2.)})
@@ -100,7 +92,7 @@ TEST_CASE("torque-free rotation is of fourth order in the time step")
 
 TEST_CASE("a symmetric top precesses at H / I1 and spins at its closed rate")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Torque-free top with I1 = I2: the axis turns about H at the rate H/I1, and the body turns about its axis, relative
   // to the precessing frame, at the rate H3 (1/I3 - 1/I1): q(t) = R(H, |H| t/I1) q(0) R(e3, H3 (1/I3 - 1/I1) t).
   for (const Vec3 &inertia : {Vec3(1., 1., 2.), Vec3(2., 2., 0.7)})
@@ -120,7 +112,7 @@ TEST_CASE("a symmetric top precesses at H / I1 and spins at its closed rate")
 
 TEST_CASE("a grain spins freely for 100000 steps")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // No torque: H is never touched, so |H| is kept to 1e-13 (to the bit). One turn takes some 60 steps; with the order
   // of the scheme the energy's drift over 1600 turns stays below 1e-3 and falls by more than 2^4 with half the step.
   // The orientation stays unit to rounding because it is normalised in every step.

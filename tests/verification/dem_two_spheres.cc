@@ -1,8 +1,10 @@
 #include "dem/contact/common_normal.h"
 #include "dem/simulation.h"
 
+#include "tests/threads.h"
 #include <algorithm>
 #include <array>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -15,16 +17,6 @@ using namespace bergamo::dem;
 
 namespace
 {
-
-/// A team of threads costs more than it gains on one or two grains.
-struct OneThread
-{
-  OneThread() : before(omp_get_max_threads()) { omp_set_num_threads(1); }
-  ~OneThread() { omp_set_num_threads(before); }
-  OneThread(const OneThread &) = delete;
-  OneThread &operator=(const OneThread &) = delete;
-  int before;
-};
 
 constexpr double radius = 1e-3;
 
@@ -168,7 +160,7 @@ double order(const std::vector<double> &errors)
 
 TEST_CASE("the force between two pressed spheres is Hertz's")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // f = (4/3) E* sqrt(R*) d^(3/2): the overlap is a difference of lengths 1000 times larger, so its relative error is
   // 1e-13 and the force's 1.5 times that; the circle's entry of the ellipse table is exact to 1e-12.
   std::mt19937_64 generator(1);
@@ -197,7 +189,7 @@ TEST_CASE("the force between two pressed spheres is Hertz's")
 
 TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Force over displacement in one step from rest: 4 G a/(2 - nu), a = sqrt(R* d), in every direction, for sliding and
   // for the rotation of either sphere (displacement omega x arm).
   for (const double nu : {0., 0.25, 0.4})
@@ -241,7 +233,7 @@ TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
 
 TEST_CASE("an undamped impact gives back the speed, at second order in the time step")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Against Hertz's impact: largest overlap and duration; speeds after over before. Leapfrog is of second order; the
   // error depends on where within a step the contact begins, so its root mean square over 16 beginnings is measured.
   const Material m = elastic_parameters().grain;
@@ -292,7 +284,7 @@ TEST_CASE("an undamped impact gives back the speed, at second order in the time 
 
 TEST_CASE("a dashpot lowers the restitution, more where it is stronger, and keeps the momentum")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   const Material m = elastic_parameters().grain;
   const double v = 0.5;
   const HertzImpact hertz(m, 2. * v);
@@ -337,7 +329,7 @@ TEST_CASE("a dashpot lowers the restitution, more where it is stronger, and keep
 
 TEST_CASE("an oblique frictional impact keeps linear and angular momentum about the origin")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Opposite forces at one point: both sums change by rounding alone. Terms m x v of size 1e-3 kg m/s^... are of one
   // size here, some thousand steps: 1e-12 relative to the sum of the terms' sizes.
   std::mt19937_64 generator(4);
@@ -366,7 +358,7 @@ TEST_CASE("an oblique frictional impact keeps linear and angular momentum about 
 
 TEST_CASE("the energy balance of colliding grains of any shape closes")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // E = kinetic + stored + losses - curvature work. Hertz's coefficient follows the curvature of the place of contact
   // and the axes of the ellipse, so that the stored energy changes without any work: the force has no potential. That
   // part is booked as curvature work; here it is found once more from the contact's states: energy stored with the new
@@ -426,7 +418,7 @@ TEST_CASE("the energy balance of colliding grains of any shape closes")
 
 TEST_CASE("a collision does not depend on the frame")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // The same collision turned as a whole, 3000 steps: rounding of 1e-16 a step, and a contact found to 1e-10 half-axes
   // on smooth grains whose overlap is stationary in it.
   std::mt19937_64 generator(9);
@@ -469,7 +461,7 @@ TEST_CASE("a collision does not depend on the frame")
 
 TEST_CASE("the forces of a pair that turns as one body turn with it")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Two pressed and sheared spheres are led on circles, steps of angle a = 2.5/n: the true relative motion is none. The
   // displacement of a step, chord less arms at its end, is off by a^2/2 times the distance d: in all by 2.5^2 d/(2n),
   // of which the tangential spring takes the part in the plane. First order at least, and no more than that.

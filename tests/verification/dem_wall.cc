@@ -1,6 +1,8 @@
 #include "dem/simulation.h"
 
+#include "tests/threads.h"
 #include <algorithm>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <omp.h>
@@ -11,16 +13,6 @@ using namespace bergamo::dem;
 
 namespace
 {
-
-/// A team of threads costs more than it gains on one or two grains.
-struct OneThread
-{
-  OneThread() : before(omp_get_max_threads()) { omp_set_num_threads(1); }
-  ~OneThread() { omp_set_num_threads(before); }
-  OneThread(const OneThread &) = delete;
-  OneThread &operator=(const OneThread &) = delete;
-  int before;
-};
 
 constexpr double radius = 1e-3;
 const Superquadric sphere{Vec3::Constant(radius), 1., 1.};
@@ -84,7 +76,7 @@ Chain pressed_chain(const SimulationParameters &p, const int n, const double ove
 
 TEST_CASE("a sphere settles on the floor at Hertz's static overlap")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // m g = gamma E* d^(3/2). Critically damped to half, contact frequency some 1e4/s: after 0.05 s the swing has died
   // by exp(-100) and more; d is a difference of lengths 1e4 times larger (1e-12).
   for (const Vec3 &normal : {Vec3(0., 0., 1.), Vec3(Vec3(0.3, -0.4, 0.8).normalized())})
@@ -115,7 +107,7 @@ TEST_CASE("a sphere settles on the floor at Hertz's static overlap")
 
 TEST_CASE("the work of a moving wall is the energy that the grain gains")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // A wall that comes at speed V hits a resting sphere without damping: it leaves at 2 V, so the wall has done 2 m V^2.
   // Leapfrog's second order: some hundred steps a contact give 1e-4.
   SimulationParameters p = soft_parameters();
@@ -156,7 +148,7 @@ TEST_CASE("the work of a moving wall is the energy that the grain gains")
 
 TEST_CASE("the account stays closed when a wall is taken away")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // What the wall did while it was there stays done: balance() is constant but for the elastic energy of its contacts,
   // which is none once the grain has left.
   SimulationParameters p = soft_parameters();
@@ -179,7 +171,7 @@ TEST_CASE("the account stays closed when a wall is taken away")
 
 TEST_CASE("the stable time step of one sphere on a wall in closed form")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Modes of the pressed sphere: along the normal k, c; sideways the stiffness kT with the mass and, by the arm, with
   // the inertia 2/5 m r^2: kT (1/m + (r - d/2)^2/I). Each allows the dt that solves s dt^2/4 + c' dt/2 = 1 (s stiffness
   // and c' damping over mass); the shortest counts. Forty iterations of the power method, thrice, on modes 1.3 apart:
@@ -220,7 +212,7 @@ TEST_CASE("the stable time step of one sphere on a wall in closed form")
 
 TEST_CASE("a pressed chain is stable just below the stable time step and not just above it")
 {
-  const OneThread one_thread;
+  const Threads one_thread(1);
   // Small random velocities in all degrees of freedom about an equilibrium in which everything sticks: linear. At 1.05
   // of the limit the fastest mode's multiplier is mu + 1/mu = 4 * 1.05^2 - 2, mu = 1.88 undamped: 1.88^100. At 0.95 the
   // swing stays bounded, but for the chain's buckling by rolling, at sqrt(overlap/radius) = 1e-3 of the contact's

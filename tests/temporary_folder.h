@@ -36,7 +36,7 @@ private:
 inline std::string content_of(const std::filesystem::path &path)
 {
   std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
+  text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
 }
 
