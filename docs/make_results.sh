@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Runs the tests behind docs/results: the three models, and the penalty ten times smaller and larger.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+prm=drivers/two_scale_triaxial/two_scale_triaxial.prm
+./run two_scale_triaxial $prm --output results/grains --set "Model/kind=grains"
+./run two_scale_triaxial $prm --output results/continuum --set "Model/kind=continuum"
+./run two_scale_triaxial $prm --output results/penalty-1e13 --set "Coupling/penalty=1e13" --no-plots
+./run two_scale_triaxial $prm --output results/penalty-1e15 --set "Coupling/penalty=1e15" --no-plots
+./run two_scale_triaxial $prm --output results/two_scale_triaxial # last: draws the comparison
