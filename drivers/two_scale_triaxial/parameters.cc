@@ -11,7 +11,7 @@ namespace bergamo::driver
 
 TriaxialParameters::TriaxialParameters()
 {
-  simulation.time_step = 1.25e-7;
+  simulation.time_step = 1.2e-7;
   continuum.density = 1780.;
 }
 
