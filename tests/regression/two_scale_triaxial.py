@@ -182,6 +182,14 @@ class BadInput(Case):
         self.assert_refused(self.run_driver(out), str(out), "--force")
         self.assertEqual((out / "history.csv").read_text(), "precious")
 
+    def test_parameter_files(self):
+        """Every parameter file of the driver is read and valid: what is refused is only the missing snapshot."""
+        files = sorted(FOLDER.glob("*.prm"))
+        self.assertGreaterEqual(len(files), 3)
+        for prm in files:
+            with self.subTest(prm.name):
+                self.assert_refused(self.run_driver(self.tmp / "run", "--restart", prm=prm), "snapshot")
+
     def test_read_only_folder(self):
         if os.geteuid() == 0:
             self.assert_refused(self.run_driver(Path("/proc/bergamo")), "/proc")
