@@ -26,7 +26,7 @@ const char *const previous_run = "previous_run";
 
 bool is_part(const std::string &name)
 {
-  return name.ends_with(".part");
+  return name.ends_with(".partial") || name.ends_with(".part"); // of the programs and of the plot scripts
 }
 
 /// Whether a run writes a file or folder of this name.
