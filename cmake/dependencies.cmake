@@ -1,6 +1,12 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 
+find_path(SLEEF_INCLUDE_DIR sleef.h REQUIRED)
+find_library(SLEEF_LIBRARY sleef REQUIRED)
+add_library(bergamo_sleef INTERFACE)
+target_include_directories(bergamo_sleef SYSTEM INTERFACE ${SLEEF_INCLUDE_DIR})
+target_link_libraries(bergamo_sleef INTERFACE ${SLEEF_LIBRARY})
+
 # deal.II on Debian links the Open MPI build of HDF5; the serial build beside it breaks at run time.
 find_package(MPI REQUIRED COMPONENTS C)
 set(HDF5_PREFER_PARALLEL TRUE)

@@ -38,6 +38,8 @@ void SimulationParameters::validate() const
   require(wall_friction >= 0. && std::isfinite(wall_friction), "wall friction coefficient", wall_friction,
           "at least 0");
   require(damping_ratio >= 0. && std::isfinite(damping_ratio), "damping ratio", damping_ratio, "at least 0");
+  require(relaxation_time >= 0. && std::isfinite(relaxation_time), "viscoelastic relaxation time", relaxation_time,
+          "at least 0 [s]");
   require(time_step > 0. && std::isfinite(time_step), "time step", time_step, "positive [s]");
   require(verlet_distance > 0. && verlet_distance <= 2., "Verlet distance", verlet_distance,
           "in (0, 2] mean bounding radii");
@@ -47,8 +49,8 @@ void SimulationParameters::validate() const
 Simulation::Simulation(const SimulationParameters &parameters) : p(parameters)
 {
   p.validate();
-  pair_law = {elastic_pair(p.grain, p.grain), p.friction, p.damping_ratio};
-  wall_law = {elastic_pair(p.grain, p.wall), p.wall_friction, p.damping_ratio};
+  pair_law = {elastic_pair(p.grain, p.grain), p.friction, p.damping_ratio, p.relaxation_time};
+  wall_law = {elastic_pair(p.grain, p.wall), p.wall_friction, p.damping_ratio, p.relaxation_time};
 }
 
 std::unique_ptr<Simulation> Simulation::empty(const SimulationParameters &parameters)
@@ -80,11 +82,13 @@ void Simulation::change(const SimulationParameters &parameters)
   p.friction = parameters.friction;
   p.wall_friction = parameters.wall_friction;
   p.damping_ratio = parameters.damping_ratio;
+  p.relaxation_time = parameters.relaxation_time;
   p.time_step = parameters.time_step;
   p.contact = parameters.contact;
   pair_law.friction = p.friction;
   wall_law.friction = p.wall_friction;
   pair_law.damping_ratio = wall_law.damping_ratio = p.damping_ratio;
+  pair_law.relaxation_time = wall_law.relaxation_time = p.relaxation_time;
   refresh_contacts(); // the last drift was made with the old step
 }
 
@@ -139,10 +143,8 @@ void Simulation::remove_wall(const std::int32_t index)
 
 void Simulation::refresh_contacts()
 {
-  for (ContactState &s : pairs.state)
-    s.motion = std::numeric_limits<double>::max();
-  for (ContactState &s : wall_contacts.state)
-    s.motion = std::numeric_limits<double>::max();
+  pairs.refresh(particles);
+  wall_contacts.refresh();
 }
 
 void Simulation::compute_forces()
@@ -153,35 +155,25 @@ void Simulation::compute_forces()
   if (wall_moved || h.largest_square_motion > 0.25 * h.verlet_distance * h.verlet_distance)
     rebuild_neighbours();
 
-  pairs.compute(particles, pair_law, p.contact, p.time_step);
+  pairs.compute(particles, pair_law, p.contact, p.time_step, times);
+  Stopwatch watch;
   wall_contacts.compute(particles, walls, wall_law, p.contact, p.time_step);
+  watch.lap(times.walls);
   sum_contact_forces();
+  watch.lap(times.summation);
 }
 
 void Simulation::sum_contact_forces()
 {
-  const VerletList &list = pairs.list;
   parallel_for(particles.size(),
                [&](const std::size_t i)
                {
                  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-                 for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
-                   if (pairs.rest_until[pair] < 0.) // else apart: its slot is void
-                   {
-                     force += pairs.resultant[pair].force;
-                     torque += pairs.resultant[pair].torque1;
-                   }
-                 for (auto k = list.incoming_row[i]; k < list.incoming_row[i + 1]; ++k)
-                 {
-                   const auto pair = list.incoming[k];
-                   if (pairs.rest_until[pair] < 0.)
-                   {
-                     force -= pairs.resultant[pair].force;
-                     torque += pairs.resultant[pair].torque2;
-                   }
-                 }
+                 pairs.add_resultants(static_cast<std::int32_t>(i), force, torque);
                  for (auto k = wall_contacts.row[i]; k < wall_contacts.row[i + 1]; ++k)
                  {
+                   if (!wall_contacts.is_touching(k))
+                     continue;
                    force += wall_contacts.resultant[k].force;
                    torque += wall_contacts.resultant[k].torque1;
                  }
@@ -193,8 +185,8 @@ void Simulation::sum_contact_forces()
 void Simulation::integrate()
 {
   const double dt = p.time_step;
-  double largest = h.largest_square_motion;
-#pragma omp parallel for schedule(static) reduction(max : largest)
+  double largest = h.largest_square_motion, largest_motion = 0.;
+#pragma omp parallel for schedule(static) reduction(max : largest, largest_motion)
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
     Vec3 &v = particles.velocity[i];
@@ -211,10 +203,13 @@ void Simulation::integrate()
     particles.angular_velocity[i] = omega;
     particles.orientation[i] = (rotation(dt * omega) * particles.orientation[i]).normalized();
 
-    particles.motion[i] += dt * (v.norm() + omega.norm() * particles.bounding_radius[i]);
+    const double motion = dt * (v.norm() + omega.norm() * particles.bounding_radius[i]);
+    particles.motion[i] += motion;
+    largest_motion = std::max(largest_motion, motion);
     largest = std::max(largest, (particles.position[i] - h.position_when_built[i]).squaredNorm());
   }
   h.largest_square_motion = largest;
+  particles.largest_motion += largest_motion;
   for (PlaneWall &wall : walls)
   {
     wall.point += dt * wall.velocity;
@@ -234,11 +229,6 @@ void Simulation::rest()
 
 void Simulation::reset_accounts()
 {
-  ContactLosses ignored;
-  for (ContactState &s : pairs.state)
-    ignored.take(s);
-  for (ContactState &s : wall_contacts.state)
-    ignored.take(s);
   pairs.losses = wall_contacts.losses = {};
   for (PlaneWall &wall : walls)
     wall.work = 0.;
@@ -276,7 +266,7 @@ GrainEnergy Simulation::energy() const
     e.normal += stored.normal;
     e.tangential += stored.tangential;
   }
-  for (const auto &lost : {pairs.total_losses(), wall_contacts.total_losses()})
+  for (const auto &lost : {pairs.losses, wall_contacts.losses})
   {
     e.friction_loss += lost.friction;
     e.viscous_loss += lost.viscous;
@@ -291,7 +281,7 @@ GrainEnergy Simulation::energy() const
 
 double Simulation::stable_time_step() const
 {
-  return dem::stable_time_step(particles, pairs, pair_law, wall_contacts, wall_law, p.time_step);
+  return dem::stable_time_step(particles, pairs.touching(particles), pair_law, wall_contacts, wall_law, p.time_step);
 }
 
 void Simulation::check_finite() const

@@ -23,6 +23,7 @@ struct SimulationParameters
   double friction = 0.24;
   double wall_friction = 0.;
   double damping_ratio = 0.9;   ///< dashpot, share of critical damping
+  double relaxation_time = 0.;  ///< A of the viscoelastic law, beside the dashpot [s]
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   double time_step = 2.5e-7;    ///< [s]
   double verlet_distance = 0.1; ///< over the mean bounding radius
@@ -86,6 +87,7 @@ public:
   double time = 0.;                      ///< [s]
   std::int64_t n_steps = 0;
   std::int64_t n_rebuilds = 0;
+  PhaseTimes times;
 
   /// What a restart needs beyond the public state; dem/io/snapshot stores it.
   struct Hidden

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/core/tangent_frame.h"
 #include "dem/core/types.h"
 #include "dem/shape/superquadric.h"
 #include "dem/shape/support.h"
@@ -14,40 +15,83 @@
 ///
 /// c minimises phi(c) = h1(c) + h2(-c) - c.(x2 - x1) over the unit sphere, and delta = min phi:
 /// the dissertation's common-normal conditions (Wellmann, eq. 3.50-3.52) without angles and poles.
+///
+/// Real is double or Pack: a pack holds as many independent pairs as it has lanes.
 namespace bergamo::dem
 {
 
 /// A placed body, ready for support queries.
-struct BodyPose
+template <class Real>
+struct Pose
 {
-  SupportShape<double> shape; ///< body frame [m]
-  Mat3 rotation;              ///< body to global
-  Vec3 position;              ///< centre [m]
+  SupportShape<Real> shape; ///< body frame [m]
+  Matrix3<Real> rotation;   ///< body to global
+  Vector3<Real> position;   ///< centre [m]
 };
+using BodyPose = Pose<double>;
 
 /// @param body the shape; @param position centre [m], global; @param orientation unit quaternion, body to global.
 inline BodyPose make_pose(const Superquadric &body, const Vec3 &position, const Quaternion &orientation)
 {
-  return {{body.half_axes[0], body.half_axes[1], body.half_axes[2], 2. / (2. - body.eps1), 2. / (2. - body.eps2)},
-          orientation.toRotationMatrix(),
-          position};
+  return {support_shape(body), orientation.toRotationMatrix(), position};
 }
 
-/// Support of a placed body: everything in the global frame.
-struct GlobalSupport
+/// Radii of curvature of a surface at a contact: the symmetric 2x2 tensor d p / d n in tangent_frame(normal) [m].
+/// Its eigenvalues are the principal radii, its eigenvectors the principal directions.
+template <class Real>
+struct CurvatureRadii
 {
-  double height; ///< h(n) measured from the centre [m]
-  Vec3 arm;      ///< surface point minus centre [m]
-  Mat3 hessian;  ///< d arm / d n [m]; its tangential part holds the radii of curvature
+  Real r11, r22, r12;
+
+  CurvatureRadii operator+(const CurvatureRadii &o) const { return {r11 + o.r11, r22 + o.r22, r12 + o.r12}; }
+
+  /// Frobenius norm [m].
+  Real norm() const
+  {
+    const Real twice = r12 + r12;
+    return math::sqrt(r11 * r11 + r22 * r22 + twice * r12);
+  }
 };
 
-inline GlobalSupport support(const BodyPose &body, const Vec3 &normal)
+/// Support of a placed body in the global frame.
+template <class Real>
+struct PlacedSupport
 {
-  const Vec3 n = body.rotation.transpose() * normal;
-  const Support<double> s = support(body.shape, n[0], n[1], n[2]);
-  Mat3 h;
-  h << s.h11, s.h12, s.h13, s.h12, s.h22, s.h23, s.h13, s.h23, s.h33;
-  return {s.h, body.rotation * Vec3(s.x1, s.x2, s.x3), body.rotation * h * body.rotation.transpose()};
+  Real height;                ///< h(n) measured from the centre [m]
+  Vector3<Real> arm;          ///< surface point minus centre [m]
+  CurvatureRadii<Real> radii; ///< in the given tangent frame
+};
+
+/// @param normal unit vector, global; @param frame tangent_frame(normal), or of -normal: the radii are even in it.
+template <class Real>
+PlacedSupport<Real> support(const Pose<Real> &body, const Vector3<Real> &normal, const TangentFrameOf<Real> &frame)
+{
+  const auto to_body = [&](const auto &v) -> Vector3<Real>
+  {
+    const Matrix3<Real> &r = body.rotation;
+    return {r(0, 0) * v[0] + r(1, 0) * v[1] + r(2, 0) * v[2], r(0, 1) * v[0] + r(1, 1) * v[1] + r(2, 1) * v[2],
+            r(0, 2) * v[0] + r(1, 2) * v[1] + r(2, 2) * v[2]};
+  };
+  const auto to_global = [&](const Real &x, const Real &y, const Real &z) -> Vector3<Real>
+  {
+    const Matrix3<Real> &r = body.rotation;
+    return {r(0, 0) * x + r(0, 1) * y + r(0, 2) * z, r(1, 0) * x + r(1, 1) * y + r(1, 2) * z,
+            r(2, 0) * x + r(2, 1) * y + r(2, 2) * z};
+  };
+  const Vector3<Real> n = to_body(normal), t1 = to_body(frame.col(0)), t2 = to_body(frame.col(1));
+  const Support<Real> s = support(body.shape, n[0], n[1], n[2]);
+  const auto times_hessian = [&](const Vector3<Real> &t) -> Vector3<Real>
+  {
+    return {s.h11 * t[0] + s.h12 * t[1] + s.h13 * t[2], s.h12 * t[0] + s.h22 * t[1] + s.h23 * t[2],
+            s.h13 * t[0] + s.h23 * t[1] + s.h33 * t[2]};
+  };
+  const Vector3<Real> h1 = times_hessian(t1), h2 = times_hessian(t2);
+  return {s.h, to_global(s.x1, s.x2, s.x3), {t1.dot(h1), t2.dot(h2), t1.dot(h2)}};
+}
+
+inline PlacedSupport<double> support(const BodyPose &body, const Vec3 &normal)
+{
+  return support(body, normal, tangent_frame(normal));
 }
 
 enum class ContactStatus
@@ -61,11 +105,11 @@ enum class ContactStatus
 struct ContactGeometry
 {
   ContactStatus status = ContactStatus::undecided;
-  Vec3 normal;             ///< c
-  double overlap = 0.;     ///< delta [m]
-  Vec3 arm1, arm2;         ///< p1 - x1 and p2 - x2 [m], global frame
-  Mat3 hessian1, hessian2; ///< d p / d n of both surfaces at the contact [m], global frame
-  int n_evaluations = 0;   ///< support evaluations of the pair
+  Vec3 normal;                           ///< c
+  double overlap = 0.;                   ///< delta [m]
+  Vec3 arm1, arm2;                       ///< p1 - x1 and p2 - x2 [m], global frame
+  CurvatureRadii<double> radii1, radii2; ///< of both surfaces at the contact, in tangent_frame(normal)
+  int n_evaluations = 0;                 ///< support evaluations of the pair
 };
 
 } // namespace bergamo::dem

@@ -1,20 +1,30 @@
 #pragma once
 
+#include "dem/core/pack.h"
 #include "dem/core/types.h"
 
 namespace bergamo::dem
 {
 
-using TangentFrame = Eigen::Matrix<double, 3, 2>;
+/// Two unit columns t1, t2 that complete a unit vector n to a right-handed frame (t1, t2, n).
+template <class Real>
+using TangentFrameOf = Eigen::Matrix<Real, 3, 2>;
+using TangentFrame = TangentFrameOf<double>;
 
-/// Two unit columns t1, t2 that complete the unit vector n to a right-handed frame (t1, t2, n). Duff et al. 2017.
-inline TangentFrame tangent_frame(const Vec3 &n)
+/// Duff et al. 2017, Building an orthonormal basis, revisited.
+template <class Real>
+TangentFrameOf<Real> tangent_frame(const Vector3<Real> &n)
 {
-  const double sign = n[2] >= 0. ? 1. : -1.;
-  const double a = -1. / (sign + n[2]);
-  const double b = n[0] * n[1] * a;
-  TangentFrame frame;
-  frame << 1. + sign * n[0] * n[0] * a, b, sign * b, sign + n[1] * n[1] * a, -sign * n[0], -n[1];
+  const Real sign = math::select(n[2] >= Real(0.), Real(1.), Real(-1.));
+  const Real a = Real(-1.) / (sign + n[2]);
+  const Real b = n[0] * n[1] * a;
+  TangentFrameOf<Real> frame;
+  frame(0, 0) = Real(1.) + sign * n[0] * n[0] * a;
+  frame(1, 0) = sign * b;
+  frame(2, 0) = -sign * n[0];
+  frame(0, 1) = b;
+  frame(1, 1) = sign + n[1] * n[1] * a;
+  frame(2, 1) = -n[1];
   return frame;
 }
 

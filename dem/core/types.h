@@ -6,8 +6,14 @@
 namespace bergamo::dem
 {
 
-using Vec3 = Eigen::Vector3d;
-using Mat3 = Eigen::Matrix3d;
+/// Real is double or a SIMD pack of doubles (dem/core/pack.h).
+template <class Real>
+using Vector3 = Eigen::Matrix<Real, 3, 1>;
+template <class Real>
+using Matrix3 = Eigen::Matrix<Real, 3, 3>;
+
+using Vec3 = Vector3<double>;
+using Mat3 = Matrix3<double>;
 using Quaternion = Eigen::Quaterniond; ///< unit, turns body vectors into global ones
 
 } // namespace bergamo::dem

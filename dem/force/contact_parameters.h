@@ -1,10 +1,6 @@
 #pragma once
 
-#include "dem/core/types.h"
-#include "dem/law/hertz.h"
-#include "dem/shape/superquadric.h"
-
-#include <cmath>
+#include "dem/core/pack.h"
 
 namespace bergamo::dem
 {
@@ -25,15 +21,11 @@ struct ContactParameters
 
 /// Relative motion at a contact after which it is searched anew [m], see ContactParameters::overlap_tolerance.
 /// @param radius smaller bounding radius of the pair [m]; @param overlap [m], > 0; @param curvature_radius H [m]
-inline double motion_budget(const ContactParameters &parameters, const double radius, const double overlap,
-                            const double curvature_radius)
+template <class Real>
+Real motion_budget(const ContactParameters &parameters, const Real &radius, const Real &overlap,
+                   const Real &curvature_radius)
 {
-  return radius * std::sqrt(2. * parameters.overlap_tolerance * overlap / curvature_radius);
-}
-
-inline CurvatureBounds curvature_bounds(const Superquadric &shape, const double factor)
-{
-  return {factor * shape.half_axes.minCoeff(), shape.half_axes.maxCoeff() / factor};
+  return radius * math::sqrt(Real(2. * parameters.overlap_tolerance) * overlap / curvature_radius);
 }
 
 } // namespace bergamo::dem

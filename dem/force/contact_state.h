@@ -1,43 +1,66 @@
 #pragma once
 
-#include "dem/contact/geometry.h"
-#include "dem/law/damping.h"
-#include "dem/law/hertz.h"
-#include "dem/law/mindlin.h"
+#include "dem/force/contact_law.h"
+
+#include <limits>
 
 namespace bergamo::dem
 {
 
-/// What one contact remembers from step to step. Plain doubles only, so that it is stored and restored as a block.
-/// Vectors are global; the normal points from body 1 to body 2.
+/// What a touching contact remembers from step to step. Plain doubles only, so that it is stored and restored as a
+/// block; for Real = Pack, a pack of contacts. Vectors are global; the normal points from body 1 to body 2.
+template <class Real>
 struct ContactState
 {
-  Vec3 normal = Vec3::Zero();
-  Vec3 point = Vec3::Zero(); ///< contact point minus the midpoint of both centres (walls: minus the centre) [m]
-  Vec3 major_axis = Vec3::Zero();
-  Vec3 tangential_force = Vec3::Zero(); ///< on body 1, without the weight [N]
-  double normal_force = 0.;             ///< f_N >= 0, without the weight [N]
-  double overlap = 0.;                  ///< [m]
-  HertzMindlin stiffness{0., 0., 0.};
-  double reduced_mass = 0.;   ///< [kg]
-  double weight = 1.;         ///< share of the contact in the virtual work
-  double motion = 0.;         ///< relative motion at the contact since the last search [m]
-  double motion_budget = 0.;  ///< of the motion [m]; beyond it the contact is searched anew
-  double spin = 0.;           ///< mean rotation about the normal since the last search [rad]
-  double friction_loss = 0.;  ///< weighted energy lost tangentially since the contact began [J]
-  double viscous_loss = 0.;   ///< weighted energy lost in the dashpot since the contact began [J]
-  double curvature_work = 0.; ///< weighted energy that changes of the stiffness put into the contact [J]
-  double touching = 0.;       ///< 1 while the bodies touch, else 0
+  Vector3<Real> normal;
+  Vector3<Real> point; ///< contact point minus the midpoint of both centres (walls: minus the grain's centre) [m]
+  Vector3<Real> major_axis;
+  ContactForces<Real> forces;
+  Real overlap; ///< [m], > 0
+  HertzMindlin<Real> stiffness;
+  Real reduced_mass; ///< [kg]
+  Real weight;       ///< share of the contact in the virtual work
+  Real radius;       ///< that turns rotation into motion at the contact [m]
+  Real budget;       ///< relative motion at the contact that is left before it is searched anew [m]
+  Real spin;         ///< mean rotation about the normal since the last search [rad]
+
+  EllipticStiffness<Real> tangential_stiffness() const
+  {
+    return {stiffness.tangential_major, stiffness.tangential_minor, major_axis, normal.cross(major_axis)};
+  }
+
+  /// A contact about to begin: no force, no overlap yet.
+  static ContactState begin()
+  {
+    const Vector3<Real> zero(Real(0.), Real(0.), Real(0.));
+    const Real nought(0.), one(1.);
+    return {zero, zero, zero, {zero, nought}, nought, {one, one, one}, one, nought, nought, nought, nought};
+  }
+
+  /// Fills unused lanes: stays as it is, without weight, and is never due.
+  static ContactState idle()
+  {
+    ContactState s = begin();
+    s.overlap = Real(1.);
+    s.budget = Real(std::numeric_limits<double>::infinity());
+    return s;
+  }
 };
 
-static_assert(sizeof(ContactState) % sizeof(double) == 0);
-
-/// Constants of every contact of one kind (grain-grain or grain-wall).
-struct ContactLaw
+/// A contact of two spheres: its geometry follows from the centres at every step.
+template <class Real>
+struct SphereContactState
 {
-  ElasticPair elastic;
-  double friction = 0.;      ///< Coulomb's coefficient
-  double damping_ratio = 0.; ///< of the dashpot, 1 is critical
+  ContactForces<Real> forces;
+  Real overlap;                                ///< [m], > 0
+  Real normal_stiffness, tangential_stiffness; ///< as in HertzMindlin
+  Real reduced_mass, weight;
+
+  static SphereContactState idle()
+  {
+    const Real nought(0.), one(1.);
+    return {{Vector3<Real>(nought, nought, nought), nought}, one, one, one, one, nought};
+  }
 };
 
 /// Energy stored in a contact with its weight [J].
@@ -48,98 +71,82 @@ struct ContactEnergy
   double sum() const { return normal + tangential; }
 };
 
-inline TangentialStiffness tangential_stiffness(const ContactState &s, const double root_overlap)
+inline ContactEnergy stored_energy(const ContactState<double> &s)
 {
-  return {s.stiffness.tangential_major * root_overlap, s.stiffness.tangential_minor * root_overlap, s.major_axis,
-          s.normal.cross(s.major_axis)};
-}
-
-inline ContactEnergy stored_energy(const ContactState &s)
-{
-  if (s.touching == 0. || !(s.overlap > 0.))
+  if (!(s.overlap > 0.))
     return {};
   const double root = std::sqrt(s.overlap);
   return {s.weight * 0.4 * s.stiffness.normal * root * s.overlap * s.overlap,
-          s.weight * tangential_energy(tangential_stiffness(s, root), s.tangential_force)};
+          s.weight * s.tangential_stiffness().energy(s.forces.tangential) / root};
 }
 
-/// Forgets a contact: what its tangential spring still held counts as lost by friction.
-inline void release(ContactState &s)
+inline ContactEnergy stored_energy(const SphereContactState<double> &s)
 {
-  s.friction_loss += stored_energy(s).tangential;
-  s.tangential_force.setZero();
-  s.normal_force = 0.;
-  s.overlap = 0.;
-  s.touching = 0.;
+  const double root = std::sqrt(s.overlap);
+  return {s.weight * 0.4 * s.normal_stiffness * root * s.overlap * s.overlap,
+          s.weight * RoundStiffness<double>{s.tangential_stiffness}.energy(s.forces.tangential) / root};
 }
 
-/// Ends a contact that came apart during this step, with the losses of its last step (trapezoidal rule).
+/// Losses when a contact is forgotten: what its tangential spring still held counts as lost by friction.
+template <class State>
+ContactLosses release(const State &s)
+{
+  return {stored_energy(s).tangential, 0., 0.};
+}
+
+/// Losses when a contact came apart during this step: those of its last step (trapezoidal rule), and its spring's.
+/// @param s as last step left it; @param normal last step's
 /// @param displacement motion of body 2 relative to body 1 at the contact point since last step [m]
-inline void separate(ContactState &s, const double old_overlap, const Vec3 &displacement)
+template <class State>
+ContactLosses separate(const State &s, const Vec3 &normal, const Vec3 &displacement)
 {
-  s.overlap = old_overlap;
-  s.viscous_loss += stored_energy(s).normal - s.weight * 0.5 * s.normal_force * s.normal.dot(displacement);
-  s.friction_loss += s.weight * 0.5 * s.tangential_force.dot(displacement);
-  release(s);
+  ContactLosses losses = release(s);
+  losses.viscous = stored_energy(s).normal - s.weight * 0.5 * s.forces.normal * normal.dot(displacement);
+  losses.friction += s.weight * 0.5 * s.forces.tangential.dot(displacement);
+  return losses;
 }
 
-/// Takes over the result of a contact search for a touching pair: the tangential force turns with the contact onto
-/// the new tangent plane with its magnitude kept, plus the mean spin about the normal (Wellmann 3.24 ff.).
-inline void take_geometry(ContactState &s, const Vec3 &normal, const double overlap, const RelativeCurvature &curvature,
-                          const ElasticPair &elastic)
+/// Takes over the result of a contact search for a touching pair; the tangential force turns with the contact.
+/// @param[in,out] s with forces and spin of the last step, or ContactState::begin()
+template <class Real>
+void take_geometry(ContactState<Real> &s, const Vector3<Real> &normal, const Real &overlap,
+                   const RelativeCurvature<Real> &curvature, const ElasticPair &elastic)
 {
-  const double size = s.tangential_force.norm();
-  if (size > 0.)
-  {
-    Vec3 turned = s.tangential_force - normal * normal.dot(s.tangential_force);
-    turned += std::sin(s.spin) * normal.cross(turned) + (std::cos(s.spin) - 1.) * turned;
-    const double length = turned.norm();
-    s.tangential_force = length > 0. ? Vec3(turned * (size / length)) : Vec3::Zero();
-  }
+  s.forces.tangential = turn_force(s.forces.tangential, normal, s.spin);
   s.normal = normal;
   s.overlap = overlap;
   s.major_axis = curvature.major_axis;
   s.stiffness = hertz_mindlin(curvature.a, curvature.b, elastic);
-  s.motion = 0.;
-  s.spin = 0.;
-  s.touching = 1.;
+  s.spin = Real(0.);
 }
 
-/// Force of a touching contact at this step, and its energy losses by the trapezoidal rule, which closes the energy
-/// balance of the leapfrog scheme.
-/// @param s with this step's overlap > 0 in place; @param old_overlap last step's, <= 0 for a new contact [m]
-/// @param displacement motion of body 2 relative to body 1 at the contact point since last step [m]
-/// @return force on body 1, without the weight [N]
-inline Vec3 advance_contact(ContactState &s, const ContactLaw &law, const double old_overlap, const Vec3 &displacement,
-                            const double time_step)
+/// Forces of a contact whose geometry is at this step.
+/// @param old_overlap last step's, 0 for a new contact [m]; @param[in,out] losses with the weight [J]
+/// @return force on body 1 with the weight [N]
+template <class Real>
+Vector3<Real> advance_contact(ContactState<Real> &s, const ContactLaw &law, const Real &old_overlap,
+                              const Vector3<Real> &displacement, const double time_step, Losses<Real> &losses)
 {
-  const double approach = -s.normal.dot(displacement);
-  const Vec3 sliding = displacement + approach * s.normal;
-  const double root = std::sqrt(s.overlap);
-  const double old_root = std::sqrt(std::max(old_overlap, 0.));
+  Losses<Real> lost;
+  advance_forces(law, s.normal, s.stiffness.normal, s.tangential_stiffness(), s.reduced_mass, s.overlap, old_overlap,
+                 displacement, time_step, s.forces, lost);
+  losses.friction += s.weight * lost.friction;
+  losses.viscous += s.weight * lost.viscous;
+  return s.forces.on_body1(s.normal) * s.weight;
+}
 
-  const double elastic_force = s.stiffness.normal * root * s.overlap;
-  const double viscous_force =
-      dashpot(law.damping_ratio, 1.5 * s.stiffness.normal * root, s.reduced_mass, approach / time_step);
-  const double normal_force = std::max(elastic_force + viscous_force, 0.);
-
-  const TangentialStiffness k = tangential_stiffness(s, root);
-  const double shrink = old_root > root ? root / old_root : 1.;
-  const Vec3 tangential = tangential_force(k, s.tangential_force, shrink, sliding, law.friction * normal_force);
-
-  const double old_elastic =
-      0.4 * s.stiffness.normal * old_root * std::max(old_overlap, 0.) * std::max(old_overlap, 0.);
-  const double elastic = 0.4 * elastic_force * s.overlap;
-  s.viscous_loss += s.weight * (0.5 * (s.normal_force + normal_force) * approach - (elastic - old_elastic));
-
-  const double old_stored =
-      old_root > 0. ? tangential_energy(tangential_stiffness(s, old_root), s.tangential_force) : 0.;
-  s.friction_loss += s.weight * (0.5 * (s.tangential_force + tangential).dot(sliding) -
-                                 (tangential_energy(k, tangential) - old_stored));
-
-  s.normal_force = normal_force;
-  s.tangential_force = tangential;
-  return tangential - normal_force * s.normal;
+/// Energy that a change of the stiffness puts into a contact at the overlap of last step [J], with the weight.
+/// @param before, after as last step left the contact and with the stiffness of this one
+template <class Real>
+Real curvature_work(const ContactState<Real> &before, const ContactState<Real> &after, const Real &old_overlap)
+{
+  const Real root = math::sqrt(old_overlap);
+  const auto energy = [&](const ContactState<Real> &s) -> Real
+  {
+    return s.weight * (Real(0.4) * s.stiffness.normal * root * old_overlap * old_overlap +
+                       s.tangential_stiffness().energy(s.forces.tangential) / root);
+  };
+  return math::select(old_overlap > Real(0.), Real(energy(after) - energy(before)), Real(0.));
 }
 
 } // namespace bergamo::dem

@@ -1,172 +1,539 @@
 #include "dem/force/pair_contacts.h"
 
-#include "dem/contact/common_normal.h"
+#include "dem/core/parallel.h"
+#include "dem/force/follow.h"
+#include "dem/force/search_contacts.h"
 #include "dem/neighbour/cell_grid.h"
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
+#include <numeric>
 
 namespace bergamo::dem
 {
 namespace
 {
 
-constexpr double no_rest = -std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t group_size = 64;       // pairs that screening leaves alone together
+constexpr std::size_t blocks_per_chunk = 16; // whose losses are summed together, whatever the threads
 
-/// Share of the contact in the virtual work: interpolated along the line of centres, Wellmann (6.29), and held between
-/// the weights of the particles where the contact lies beside that line.
-double contact_weight(const double weight1, const double weight2, const Vec3 &centre_line, const Vec3 &arm1)
+/// A pair whose contact began or ended in this step.
+struct NewContact
 {
-  if (weight1 == weight2)
-    return weight1;
-  const double fraction = std::clamp(centre_line.dot(arm1) / centre_line.squaredNorm(), 0., 1.);
-  return weight1 + fraction * (weight2 - weight1);
+  std::int32_t pair;
+  ContactState<double> state;
+  Resultant resultant;
+};
+struct NewSphereContact
+{
+  std::int32_t pair;
+  SphereContactState<double> state;
+  Resultant resultant;
+};
+
+bool are_spheres(const Particles &p, const std::int32_t i, const std::int32_t j)
+{
+  return p.shape[i].is_sphere() && p.shape[j].is_sphere();
 }
 
 /// The same contact seen with its bodies exchanged.
-void exchange_bodies(ContactState &s)
+void exchange_bodies(ContactState<double> &s)
 {
   s.normal = -s.normal;
-  s.tangential_force = -s.tangential_force;
+  s.forces.tangential = -s.forces.tangential;
   s.spin = -s.spin; // about the normal
 }
 
-/// Searches the contact at the present poses. A touching pair takes the geometry, a separated one a rest.
-/// @return true if the search was decided
-bool search(const Particles &p, const std::int32_t i, const std::int32_t j, ContactState &s, double &rest_until,
-            const ContactLaw &law, const ContactParameters &parameters)
+void exchange_bodies(SphereContactState<double> &s)
 {
-  const BodyPose body1 = make_pose(p.shape[i], p.position[i], p.orientation[i]);
-  const BodyPose body2 = make_pose(p.shape[j], p.position[j], p.orientation[j]);
-  const bool is_known = s.normal.squaredNorm() > 0.;
-  const ContactGeometry g = is_known ? update_contact(body1, body2, s.normal) : find_contact(body1, body2);
-  if (g.overlap > 0.)
-  {
-    const RelativeCurvature curvature =
-        relative_curvature(g.normal, g.hessian1, curvature_bounds(p.shape[i], parameters.curvature_bound), g.hessian2,
-                           curvature_bounds(p.shape[j], parameters.curvature_bound));
-    take_geometry(s, g.normal, g.overlap, curvature, law.elastic);
-    const Vec3 half_line = 0.5 * (p.position[j] - p.position[i]);
-    s.motion_budget = motion_budget(parameters, std::min(p.bounding_radius[i], p.bounding_radius[j]), g.overlap,
-                                    (g.hessian1 + g.hessian2).norm());
-    s.point = 0.5 * (g.arm1 + g.arm2);
-    s.weight = contact_weight(p.weight[i], p.weight[j], 2. * half_line, half_line + s.point);
-    s.reduced_mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
-    rest_until = no_rest;
-  }
-  else
-  {
-    s.normal = g.normal;
-    s.overlap = g.overlap;
-    rest_until = p.motion[i] + p.motion[j] - g.overlap;
-  }
-  return g.status != ContactStatus::undecided;
+  s.forces.tangential = -s.forces.tangential;
+}
+
+PairMotion<double> motion_of(const Particles &p, const std::int32_t i, const std::int32_t j, const double time_step)
+{
+  return {p, [=](int) { return i; }, [=](int) { return j; }, time_step};
+}
+
+SphereGeometry<double> sphere_geometry(const Particles &p, const std::int32_t i, const std::int32_t j)
+{
+  return {0.5 * (p.position[j] - p.position[i]), p.bounding_radius[i], p.bounding_radius[j]};
+}
+
+double sphere_weight(const Particles &p, const std::int32_t i, const std::int32_t j)
+{
+  const double fraction = p.bounding_radius[i] / (p.bounding_radius[i] + p.bounding_radius[j]);
+  return p.weight[i] + fraction * (p.weight[j] - p.weight[i]);
+}
+
+/// Two spheres that begin to touch in this step.
+NewSphereContact begin_spheres(const Particles &p, const std::int32_t pair, const std::int32_t i, const std::int32_t j,
+                               const ContactLaw &law, const double time_step, ContactLosses &losses)
+{
+  const PairMotion<double> motion = motion_of(p, i, j, time_step);
+  const SphereGeometry<double> g = sphere_geometry(p, i, j);
+  const double curvature = 0.5 * (1. / p.bounding_radius[i] + 1. / p.bounding_radius[j]);
+  const HertzMindlin<double> stiffness = hertz_mindlin(curvature, curvature, law.elastic);
+  SphereContactState<double> s = SphereContactState<double>::idle();
+  s.overlap = g.overlap;
+  s.normal_stiffness = stiffness.normal;
+  s.tangential_stiffness = stiffness.tangential_major;
+  s.reduced_mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
+  s.weight = sphere_weight(p, i, j);
+  Losses<double> lost;
+  advance_forces(law, g.normal, s.normal_stiffness, RoundStiffness<double>{s.tangential_stiffness}, s.reduced_mass,
+                 s.overlap, 0., motion.displacement(g.point), time_step, s.forces, lost);
+  losses.friction += s.weight * lost.friction;
+  losses.viscous += s.weight * lost.viscous;
+  NewSphereContact contact{pair, s, {}};
+  store_resultants<double>(s.forces.on_body1(g.normal) * s.weight, g.point, motion.half_line,
+                           [&](int) { return &contact.resultant; });
+  return contact;
+}
+
+/// Follows all blocks of a store; slots that are due come out in order.
+template <template <class> class State>
+void follow_all(ContactStore<State> &store, const Particles &particles, const ContactLaw &law, const double time_step,
+                Collected<std::int32_t> &due, ContactLosses &losses)
+{
+  const std::size_t n_chunks = (store.n_blocks() + blocks_per_chunk - 1) / blocks_per_chunk;
+  std::vector<ContactLosses> chunk_losses(n_chunks);
+  parallel_ranges(n_chunks, 1,
+                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t chunk = begin; chunk < end; ++chunk)
+                    {
+                      Losses<Pack> lost;
+                      const std::size_t last = std::min((chunk + 1) * blocks_per_chunk, store.n_blocks());
+                      for (std::size_t block = chunk * blocks_per_chunk; block < last; ++block)
+                      {
+                        const auto is_due = follow_block(store, block, particles, law, time_step, lost);
+                        if (math::any(is_due))
+                          for (int lane = 0; lane < pack_width; ++lane)
+                            if (math::lane(is_due, lane))
+                              due.of(thread).push_back(static_cast<std::int32_t>(block * pack_width + lane));
+                      }
+                      chunk_losses[chunk] += lost;
+                    }
+                  });
+  for (const ContactLosses &lost : chunk_losses)
+    losses += lost;
+}
+
+/// Moves contacts to slots in the order of their pairs.
+template <template <class> class State>
+void compact(ContactStore<State> &store, std::vector<std::int32_t> &slot_of_pair)
+{
+  std::vector<std::int32_t> used;
+  for (std::size_t slot = 0; slot < store.n_slots(); ++slot)
+    if (store.pair[slot] != store.free_slot)
+      used.push_back(static_cast<std::int32_t>(slot));
+  std::sort(used.begin(), used.end(),
+            [&](const std::int32_t a, const std::int32_t b) { return store.pair[a] < store.pair[b]; });
+  ContactStore<State> ordered;
+  for (const std::int32_t slot : used)
+    slot_of_pair[store.pair[slot]] =
+        ordered.add(store.pair[slot], store.first[slot], store.second[slot], store.get(slot), store.resultant[slot]);
+  store = std::move(ordered);
 }
 
 } // namespace
 
+void PairContacts::compute(const Particles &p, const ContactLaw &law, const ContactParameters &parameters,
+                           const double time_step, PhaseTimes &times)
+{
+  Stopwatch watch;
+
+  // 1. Touching contacts.
+  Collected<std::int32_t> due, ended_spheres;
+  follow_all(grains, p, law, time_step, due, losses);
+  follow_all(spheres, p, law, time_step, ended_spheres, losses);
+  watch.lap(times.contacts);
+
+  // 2. Pairs apart.
+  Collected<std::int32_t> candidates, begun_spheres;
+  parallel_ranges(group_rest_until.size(), 16,
+                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t group = begin; group < end; ++group)
+                    {
+                      if (p.largest_motion < group_rest_until[group])
+                        continue;
+                      double slack = infinity;
+                      const std::size_t last = std::min((group + 1) * group_size, list.size());
+                      for (std::size_t pair = group * group_size; pair < last; ++pair)
+                      {
+                        if (slot[pair] != apart)
+                          continue;
+                        const std::int32_t i = list.first[pair], j = list.second[pair];
+                        const double motion = p.motion[i] + p.motion[j];
+                        if (!(motion < rest_until[pair]))
+                        {
+                          if (!are_spheres(p, i, j))
+                          {
+                            candidates.of(thread).push_back(static_cast<std::int32_t>(pair));
+                            slack = 0.;
+                            continue;
+                          }
+                          const double overlap = sphere_geometry(p, i, j).overlap;
+                          if (overlap > 0.)
+                          {
+                            begun_spheres.of(thread).push_back(static_cast<std::int32_t>(pair));
+                            continue;
+                          }
+                          rest_until[pair] = motion - overlap;
+                        }
+                        slack = std::min(slack, rest_until[pair] - motion);
+                      }
+                      group_rest_until[group] = p.largest_motion + 0.5 * slack; // both grains of a pair move
+                    }
+                  });
+  watch.lap(times.screening);
+
+  // 3. Searches.
+  std::vector<ContactSearch> searches;
+  std::vector<std::int32_t> searched_pair;
+  due.for_each(
+      [&](const std::int32_t s)
+      {
+        const ContactState<double> state = grains.get(s);
+        searches.push_back({grains.first[s], grains.second[s], state.normal, state});
+        searched_pair.push_back(grains.pair[s]);
+      });
+  candidates.for_each(
+      [&](const std::int32_t pair)
+      {
+        searches.push_back({list.first[pair], list.second[pair], separating_direction[pair].cast<double>(),
+                            ContactState<double>::begin()});
+        searched_pair.push_back(pair);
+      });
+  const std::size_t n_packs = (searches.size() + pack_width - 1) / pack_width;
+  std::vector<ContactLosses> pack_losses(n_packs);
+  Collected<std::size_t> begun, ended; // indices of searches
+  Collected<std::int32_t> undecided;
+  parallel_ranges(n_packs, 1,
+                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t pack = begin; pack < end; ++pack)
+                    {
+                      const std::size_t from = pack * pack_width, to = std::min(from + pack_width, searches.size());
+                      search_contacts<Pack>(std::span(searches).subspan(from, to - from), p, law, parameters, time_step,
+                                            pack_losses[pack]);
+                      for (std::size_t k = from; k < to; ++k)
+                      {
+                        const ContactSearch &s = searches[k];
+                        const std::int32_t pair = searched_pair[k];
+                        if (s.is_undecided)
+                          undecided.of(thread).push_back(pair);
+                        if (s.is_touching && slot[pair] != apart)
+                        {
+                          grains.set(slot[pair], s.state);
+                          grains.resultant[slot[pair]] = s.resultant;
+                        }
+                        else if (s.is_touching)
+                          begun.of(thread).push_back(k);
+                        else
+                        {
+                          separating_direction[pair] = s.guess.cast<float>();
+                          rest_until[pair] = p.motion[s.first] + p.motion[s.second] + s.gap;
+                          if (slot[pair] != apart)
+                            ended.of(thread).push_back(k);
+                        }
+                      }
+                    }
+                  });
+  for (const ContactLosses &lost : pack_losses)
+    losses += lost;
+  undecided.for_each([&](std::int32_t) { ++n_undecided; });
+  n_searches += static_cast<std::int64_t>(searches.size());
+
+  // Contacts that began or ended take and leave their slots one by one.
+  const auto leave = [&](const std::int32_t pair)
+  {
+    slot[pair] = apart;
+    group_rest_until[pair / group_size] = -infinity;
+    incidence.is_current = false;
+  };
+  const auto enter = [&](const std::int32_t pair, const std::int32_t new_slot)
+  {
+    slot[pair] = new_slot;
+    incidence.is_current = false;
+  };
+  ended.for_each(
+      [&](const std::size_t k)
+      {
+        const ContactSearch &s = searches[k];
+        const std::int32_t pair = searched_pair[k];
+        losses +=
+            separate(s.state, s.state.normal, motion_of(p, s.first, s.second, time_step).displacement(s.state.point));
+        grains.remove(slot[pair]);
+        leave(pair);
+      });
+  begun.for_each(
+      [&](const std::size_t k)
+      {
+        const ContactSearch &s = searches[k];
+        enter(searched_pair[k], grains.add(searched_pair[k], s.first, s.second, s.state, s.resultant));
+      });
+  ended_spheres.for_each(
+      [&](const std::int32_t s)
+      {
+        const std::int32_t i = spheres.first[s], j = spheres.second[s], pair = spheres.pair[s];
+        const SphereGeometry<double> g = sphere_geometry(p, i, j);
+        losses += separate(spheres.get(s), g.normal, motion_of(p, i, j, time_step).displacement(g.point));
+        rest_until[pair] = p.motion[i] + p.motion[j] - g.overlap;
+        spheres.remove(s);
+        leave(pair);
+      });
+  begun_spheres.for_each(
+      [&](const std::int32_t pair)
+      {
+        const std::int32_t i = list.first[pair], j = list.second[pair];
+        const NewSphereContact s = begin_spheres(p, pair, i, j, law, time_step, losses);
+        enter(pair, spheres.add(pair, i, j, s.state, s.resultant));
+      });
+  if (!incidence.is_current)
+    renew_incidence(p);
+  watch.lap(times.searches);
+}
+
+void PairContacts::renew_incidence(const Particles &p)
+{
+  const std::size_t n = p.size();
+  incidence.row.assign(n + 1, 0);
+  const auto for_each_touching = [&](const std::size_t i, const auto &visit)
+  {
+    for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
+      if (slot[pair] != apart)
+        visit(pair, 0);
+    for (auto k = list.incoming_row[i]; k < list.incoming_row[i + 1]; ++k)
+      if (slot[list.incoming[k]] != apart)
+        visit(list.incoming[k], 1);
+  };
+  parallel_for(n,
+               [&](const std::size_t i)
+               {
+                 std::int32_t count = 0;
+                 for_each_touching(i, [&](std::int32_t, int) { ++count; });
+                 incidence.row[i + 1] = count;
+               });
+  std::partial_sum(incidence.row.begin(), incidence.row.end(), incidence.row.begin());
+  incidence.entries.resize(incidence.row[n]);
+  parallel_for(n,
+               [&](const std::size_t i)
+               {
+                 std::int32_t next = incidence.row[i];
+                 for_each_touching(i,
+                                   [&](const std::int32_t pair, const int side)
+                                   {
+                                     const bool is_sphere = are_spheres(p, list.first[pair], list.second[pair]);
+                                     incidence.entries[next++] = slot[pair] * 4 + is_sphere * 2 + side;
+                                   });
+               });
+  incidence.is_current = true;
+}
+
+void PairContacts::add_resultants(const std::int32_t i, Vec3 &force, Vec3 &torque) const
+{
+  for (auto k = incidence.row[i]; k < incidence.row[i + 1]; ++k)
+  {
+    const std::int32_t entry = incidence.entries[k];
+    const Resultant &r = (entry & 2 ? spheres.resultant : grains.resultant)[entry >> 2];
+    if (entry & 1)
+    {
+      force -= r.force;
+      torque += r.torque2;
+    }
+    else
+    {
+      force += r.force;
+      torque += r.torque1;
+    }
+  }
+}
+
 void PairContacts::renew(VerletList new_list, const Particles &particles)
 {
-  std::vector<ContactState> new_state(new_list.size());
-  std::vector<double> new_rest(new_list.size(), no_rest);
-  for (std::size_t i = 0; i < particles.size(); ++i)
-  {
-    // Both rows are sorted by the second partner: walk them together.
-    std::size_t old_pair = i + 1 < list.row.size() ? list.row[i] : 0;
-    const std::size_t old_end = i + 1 < list.row.size() ? list.row[i + 1] : 0;
-    const auto leave = [&](ContactState &s)
-    {
-      release(s);
-      losses.take(s);
-    };
-    for (std::size_t pair = new_list.row[i]; pair < static_cast<std::size_t>(new_list.row[i + 1]); ++pair)
-    {
-      while (old_pair < old_end && list.second[old_pair] < new_list.second[pair])
-        leave(state[old_pair++]);
-      if (old_pair < old_end && list.second[old_pair] == new_list.second[pair])
+  std::vector<std::int32_t> new_slot(new_list.size(), apart);
+  std::vector<double> new_rest(new_list.size(), -infinity);
+  std::vector<Eigen::Vector3f> new_direction(new_list.size(), Eigen::Vector3f::Zero());
+  Collected<std::int32_t> left;
+  const bool had_list = !list.row.empty();
+  parallel_ranges(particles.size(), 64,
+                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t i = begin; i < end; ++i)
+                    {
+                      // Both rows are sorted by the second partner: walk them together.
+                      std::size_t old_pair = had_list ? list.row[i] : 0;
+                      const std::size_t old_end = had_list ? list.row[i + 1] : 0;
+                      const auto leave = [&]
+                      {
+                        if (slot[old_pair] != apart)
+                          left.of(thread).push_back(static_cast<std::int32_t>(old_pair));
+                        ++old_pair;
+                      };
+                      for (auto pair = new_list.row[i]; pair < new_list.row[i + 1]; ++pair)
+                      {
+                        while (old_pair < old_end && list.second[old_pair] < new_list.second[pair])
+                          leave();
+                        if (old_pair < old_end && list.second[old_pair] == new_list.second[pair])
+                        {
+                          new_slot[pair] = slot[old_pair];
+                          new_rest[pair] = rest_until[old_pair];
+                          new_direction[pair] = separating_direction[old_pair];
+                          ++old_pair;
+                        }
+                      }
+                      while (old_pair < old_end)
+                        leave();
+                    }
+                  });
+  left.for_each(
+      [&](const std::int32_t pair)
       {
-        new_state[pair] = state[old_pair];
-        new_rest[pair] = rest_until[old_pair];
-        ++old_pair;
-      }
-    }
-    while (old_pair < old_end)
-      leave(state[old_pair++]);
-  }
+        if (are_spheres(particles, list.first[pair], list.second[pair]))
+        {
+          losses += release(spheres.get(slot[pair]));
+          spheres.remove(slot[pair]);
+        }
+        else
+        {
+          losses += release(grains.get(slot[pair]));
+          grains.remove(slot[pair]);
+        }
+      });
   list = std::move(new_list);
-  state = std::move(new_state);
+  slot = std::move(new_slot);
   rest_until = std::move(new_rest);
-  resultant.assign(list.size(), {});
+  separating_direction = std::move(new_direction);
+  for (std::size_t pair = 0; pair < list.size(); ++pair)
+    if (slot[pair] != apart)
+    {
+      const bool is_sphere = are_spheres(particles, list.first[pair], list.second[pair]);
+      (is_sphere ? spheres.pair : grains.pair)[slot[pair]] = static_cast<std::int32_t>(pair);
+    }
+  compact(grains, slot);
+  compact(spheres, slot);
+  group_rest_until.assign((list.size() + group_size - 1) / group_size, -infinity);
+  incidence.is_current = false;
 }
 
 void PairContacts::reorder(const std::vector<std::int32_t> &order, const Particles &reordered)
 {
   const std::vector<std::int32_t> new_index = inverse_order(order);
-  std::vector<std::tuple<std::int32_t, std::int32_t, std::size_t>> pairs(list.size());
+  struct Place
+  {
+    std::int32_t first, second, pair;
+    bool is_exchanged;
+  };
+  std::vector<Place> places(list.size());
   for (std::size_t pair = 0; pair < list.size(); ++pair)
   {
-    std::int32_t i = new_index[list.first[pair]], j = new_index[list.second[pair]];
-    if (i > j)
-    {
-      std::swap(i, j);
-      exchange_bodies(state[pair]);
-    }
-    pairs[pair] = {i, j, pair};
+    const std::int32_t i = new_index[list.first[pair]], j = new_index[list.second[pair]];
+    places[pair] = {std::min(i, j), std::max(i, j), static_cast<std::int32_t>(pair), i > j};
   }
-  std::sort(pairs.begin(), pairs.end());
+  std::sort(places.begin(), places.end(),
+            [](const Place &a, const Place &b)
+            { return a.first != b.first ? a.first < b.first : a.second < b.second; });
 
   VerletList sorted;
   sorted.row.assign(reordered.size() + 1, 0);
-  std::vector<ContactState> sorted_state;
+  std::vector<std::int32_t> sorted_slot;
   std::vector<double> sorted_rest;
-  for (const auto &[i, j, pair] : pairs)
+  std::vector<Eigen::Vector3f> sorted_direction;
+  const auto exchange = [](auto &store, const std::int32_t slot)
   {
-    ++sorted.row[i + 1];
-    sorted.first.push_back(i);
-    sorted.second.push_back(j);
-    sorted_state.push_back(state[pair]);
-    sorted_rest.push_back(rest_until[pair]);
+    auto state = store.get(slot);
+    exchange_bodies(state);
+    store.set(slot, state);
+  };
+  for (const Place &place : places)
+  {
+    ++sorted.row[place.first + 1];
+    sorted.first.push_back(place.first);
+    sorted.second.push_back(place.second);
+    sorted_slot.push_back(slot[place.pair]);
+    sorted_rest.push_back(rest_until[place.pair]);
+    const float sign = place.is_exchanged ? -1.f : 1.f;
+    sorted_direction.push_back(sign * separating_direction[place.pair]);
+    if (slot[place.pair] == apart)
+      continue;
+    const std::int32_t s = slot[place.pair];
+    const bool is_sphere = are_spheres(reordered, place.first, place.second);
+    if (place.is_exchanged && is_sphere)
+      exchange(spheres, s);
+    else if (place.is_exchanged)
+      exchange(grains, s);
+    (is_sphere ? spheres.first : grains.first)[s] = place.first;
+    (is_sphere ? spheres.second : grains.second)[s] = place.second;
   }
-  for (std::size_t i = 0; i < reordered.size(); ++i)
-    sorted.row[i + 1] += sorted.row[i];
+  std::partial_sum(sorted.row.begin(), sorted.row.end(), sorted.row.begin());
   list = std::move(sorted);
-  state = std::move(sorted_state);
+  slot = std::move(sorted_slot);
   rest_until = std::move(sorted_rest);
+  separating_direction = std::move(sorted_direction);
 }
 
-void PairContacts::compute(const Particles &p, const ContactLaw &law, const ContactParameters &parameters,
-                           const double time_step)
+void PairContacts::refresh(const Particles &p)
 {
-  std::int64_t undecided = 0, searches = 0;
-#pragma omp parallel for schedule(static) reduction(+ : undecided, searches)
+  for (ContactState<Pack> &block : grains.blocks)
+    block.budget = math::select(block.weight > 0., Pack(-1.), block.budget);
+  for (std::size_t s = 0; s < spheres.n_slots(); ++s)
+    if (spheres.pair[s] != spheres.free_slot)
+    {
+      SphereContactState<double> state = spheres.get(static_cast<std::int32_t>(s));
+      state.weight = sphere_weight(p, spheres.first[s], spheres.second[s]);
+      spheres.set(static_cast<std::int32_t>(s), state);
+    }
+}
+
+std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
+{
+  std::vector<TouchingContact> contacts;
   for (std::size_t pair = 0; pair < list.size(); ++pair)
   {
-    const std::int32_t i = list.first[pair], j = list.second[pair];
-    if (p.motion[i] + p.motion[j] < rest_until[pair])
+    if (slot[pair] == apart)
       continue;
-
-    const Vec3 half_line = 0.5 * (p.position[j] - p.position[i]);
-    const double radius = std::min(p.bounding_radius[i], p.bounding_radius[j]);
-    const ContactMotion motion{time_step * radius * (p.angular_velocity[i].norm() + p.angular_velocity[j].norm()),
-                               0.5 * time_step * (p.angular_velocity[i] + p.angular_velocity[j])};
-    const auto displacement_at = [&](const ContactState &s) -> Vec3
+    const std::int32_t i = list.first[pair], j = list.second[pair];
+    if (!are_spheres(p, i, j))
     {
-      return time_step * (p.velocity[j] + p.angular_velocity[j].cross(s.point - half_line) - p.velocity[i] -
-                          p.angular_velocity[i].cross(s.point + half_line));
-    };
-    const auto search_pair = [&](ContactState &s)
-    {
-      ++searches;
-      undecided += !search(p, i, j, s, rest_until[pair], law, parameters);
-    };
-
-    ContactState &s = state[pair];
-    const Vec3 force = step_contact(s, law, motion, time_step, displacement_at, search_pair);
-    resultant[pair] = {force, (half_line + s.point).cross(force), (half_line - s.point).cross(force)};
+      contacts.push_back({i, j, grains.get(slot[pair])});
+      continue;
+    }
+    const SphereContactState<double> sphere = spheres.get(slot[pair]);
+    const SphereGeometry<double> g = sphere_geometry(p, i, j);
+    ContactState<double> s = ContactState<double>::begin();
+    s.normal = g.normal;
+    s.point = g.point;
+    s.major_axis = tangent_frame(g.normal).col(0);
+    s.forces = sphere.forces;
+    s.overlap = sphere.overlap;
+    s.stiffness = {sphere.normal_stiffness, sphere.tangential_stiffness, sphere.tangential_stiffness};
+    s.reduced_mass = sphere.reduced_mass;
+    s.weight = sphere.weight;
+    contacts.push_back({i, j, s});
   }
-  n_undecided += undecided;
-  n_searches += searches;
+  return contacts;
+}
+
+ContactEnergy PairContacts::total_energy() const
+{
+  ContactEnergy sum;
+  const auto add = [&](const ContactEnergy &e)
+  {
+    sum.normal += e.normal;
+    sum.tangential += e.tangential;
+  };
+  const auto add_all = [&](const auto &store)
+  {
+    for (std::size_t s = 0; s < store.n_slots(); ++s)
+      if (store.pair[s] != store.free_slot)
+        add(stored_energy(store.get(static_cast<std::int32_t>(s))));
+  };
+  add_all(grains);
+  add_all(spheres);
+  return sum;
 }
 
 } // namespace bergamo::dem

@@ -1,28 +1,64 @@
 #pragma once
 
+#include "dem/core/phase_times.h"
 #include "dem/force/contact_parameters.h"
-#include "dem/force/contact_step.h"
-#include "dem/force/resultant.h"
+#include "dem/force/contact_state.h"
+#include "dem/force/contact_store.h"
 #include "dem/neighbour/verlet_list.h"
 #include "dem/state/particles.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace bergamo::dem
 {
 
-/// Contacts between grains: the Verlet list with each pair's history beside it.
+/// One touching contact as a reader sees it.
+struct TouchingContact
+{
+  std::int32_t first, second; ///< grains
+  ContactState<double> state;
+};
+
+/// Contacts between grains: the Verlet list, and the history of the touching pairs in blocks of SIMD packs. A step
+///  1. follows the touching contacts along the motion of their grains (dem/force/follow.h),
+///  2. screens the pairs apart for those that may touch by now,
+///  3. searches what either finds due (dem/force/search_contacts.h).
+/// The same bits on any number of threads: work goes to threads in ranges, and what they find is taken up in order.
 struct PairContacts
 {
   VerletList list;
-  std::vector<ContactState> state; ///< one a pair
-  /// A separated pair cannot touch before the motions of both particles add up to this [m]: it is left alone until
-  /// then, which is exact. Touching pairs carry -infinity.
+  std::vector<std::int32_t>
+      slot; ///< of each pair in `grains` or, for two spheres, in `spheres`; `apart` if not touching
+  /// A pair apart cannot touch before the motions of both grains add up to this [m]: it is left alone until then, which
+  /// is exact.
   std::vector<double> rest_until;
-  std::vector<Resultant> resultant; ///< one a pair, of this step; valid where state.touching
-  ContactLosses losses;             ///< of pairs that left the list
-  std::int64_t n_undecided = 0;     ///< searches that ended without a decision, since the start
-  std::int64_t n_searches = 0;      ///< evaluations of the geometry of a pair, since the start
+  /// Direction that separates a pair apart, from which its next search starts; zero for a pair never searched.
+  std::vector<Eigen::Vector3f> separating_direction;
+  ContactStore<ContactState> grains;
+  ContactStore<SphereContactState> spheres;
+  ContactLosses losses;         ///< since the start [J]
+  std::int64_t n_undecided = 0; ///< searches that ended without a decision, since the start
+  std::int64_t n_searches = 0;  ///< since the start
+
+  /// Screening leaves alone whole groups of pairs until the largest motion of any grain reaches this [m].
+  std::vector<double> group_rest_until;
+
+  /// Touching contacts of each grain, by which it sums its forces: entries[row[i]] .. entries[row[i + 1]]. Made anew
+  /// where a contact began or ended.
+  struct Incidence
+  {
+    std::vector<std::int32_t> row, entries;
+    bool is_current = false;
+  };
+  Incidence incidence;
+
+  static constexpr std::int32_t apart = -1;
+
+  std::int32_t n_touching() const { return grains.size() + spheres.size(); }
+
+  /// All touching contacts in the order of the pairs.
+  std::vector<TouchingContact> touching(const Particles &particles) const;
 
   /// Replaces the list, keeping the history of every pair that stays. History of pairs that leave is booked as loss.
   void renew(VerletList new_list, const Particles &particles);
@@ -30,15 +66,21 @@ struct PairContacts
   /// Follows a new order of the particles, order[new] = old. The list must be renewed afterwards.
   void reorder(const std::vector<std::int32_t> &order, const Particles &reordered);
 
-  /// Brings every pair to this step: geometry where needed, then forces into `resultant`.
-  void compute(const Particles &particles, const ContactLaw &law, const ContactParameters &parameters,
-               double time_step);
+  /// Brings every pair to this step.
+  void compute(const Particles &particles, const ContactLaw &law, const ContactParameters &parameters, double time_step,
+               PhaseTimes &times);
 
-  /// Losses of all contacts since the start [J].
-  ContactLosses total_losses() const { return sum_losses(losses, state); }
+  /// Adds the contact forces of grain i [N, N m], in a fixed order.
+  void add_resultants(std::int32_t i, Vec3 &force, Vec3 &torque) const;
+
+  /// Has every contact searched anew at the next step, e.g. after weights of grains have been changed.
+  void refresh(const Particles &particles);
 
   /// Energy stored in all contacts [J].
-  ContactEnergy total_energy() const { return sum_energy(state); }
+  ContactEnergy total_energy() const;
+
+private:
+  void renew_incidence(const Particles &particles);
 };
 
 } // namespace bergamo::dem

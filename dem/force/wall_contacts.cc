@@ -1,5 +1,7 @@
 #include "dem/force/wall_contacts.h"
 
+#include "dem/contact/geometry.h"
+#include "dem/core/parallel.h"
 #include "dem/neighbour/cell_grid.h"
 
 #include <algorithm>
@@ -14,28 +16,59 @@ namespace
 
 constexpr double no_rest = -std::numeric_limits<double>::infinity();
 
-/// A plane needs no search: its normal is the contact normal.
-void locate(const Particles &p, const std::int32_t i, const PlaneWall &wall, ContactState &s, double &rest_until,
-            const ContactLaw &law, const ContactParameters &parameters)
+/// Rigid motion of a grain against a wall since the last step.
+struct WallMotion
+{
+  Vec3 velocity, spin; ///< of the wall minus the grain's; the grain's
+  double time_step;
+
+  Vec3 displacement(const Vec3 &point) const { return time_step * (velocity - spin.cross(point)); }
+};
+
+/// A plane needs no search: its normal is the contact normal. Brings a grain that touches the plane to this step.
+/// @return overlap; where it is not positive the state stays [m]
+double locate(const Particles &p, const std::int32_t i, const PlaneWall &wall, const WallMotion &motion,
+              ContactState<double> &s, const ContactLaw &law, const ContactParameters &parameters, Vec3 &force,
+              ContactLosses &losses)
 {
   const Vec3 normal = -wall.normal;
-  const GlobalSupport g = support(make_pose(p.shape[i], p.position[i], p.orientation[i]), normal);
+  const BodyPose pose = make_pose(p.shape[i], p.position[i], p.orientation[i]);
+  const TangentFrame frame = tangent_frame(normal);
+  const PlacedSupport<double> g = support(pose, normal, frame);
   const double overlap = g.height - wall.normal.dot(p.position[i] - wall.point);
-  if (overlap > 0.)
-  {
-    const CurvatureBounds bounds = curvature_bounds(p.shape[i], parameters.curvature_bound);
-    take_geometry(s, normal, overlap, relative_curvature(normal, g.hessian, bounds), law.elastic);
-    s.motion_budget = motion_budget(parameters, p.bounding_radius[i], overlap, g.hessian.norm());
-    s.point = g.arm - 0.5 * overlap * normal;
-    s.weight = p.weight[i];
-    s.reduced_mass = p.mass[i]; // the wall is infinitely heavy
-    rest_until = no_rest;
-  }
-  else
-  {
-    s.overlap = overlap;
-    rest_until = p.motion[i] + wall.motion - overlap;
-  }
+  if (!(overlap > 0.))
+    return overlap;
+
+  const double old_overlap = s.overlap;
+  s.spin += 0.5 * motion.time_step * motion.spin.dot(s.normal);
+  const ContactState<double> before = s;
+  const CurvatureBounds<double> bounds = curvature_bounds(pose.shape, parameters.curvature_bound);
+  take_geometry(s, normal, overlap, relative_curvature(frame, g.radii, bounds), law.elastic);
+  s.radius = p.bounding_radius[i];
+  s.budget = motion_budget(parameters, s.radius, overlap, g.radii.norm());
+  s.point = g.arm - 0.5 * overlap * normal;
+  s.weight = p.weight[i];
+  s.reduced_mass = p.mass[i]; // the wall is infinitely heavy
+  losses.curvature += curvature_work(before, s, old_overlap);
+  force = advance_contact(s, law, old_overlap, motion.displacement(s.point), motion.time_step, losses);
+  return overlap;
+}
+
+/// Follows a touching contact along the motion. @return false if it must be located anew; then the state stays
+bool follow(ContactState<double> &s, const WallMotion &motion, const ContactLaw &law, Vec3 &force,
+            ContactLosses &losses)
+{
+  const Vec3 displacement = motion.displacement(s.point);
+  const double overlap = s.overlap - s.normal.dot(displacement);
+  const double budget = s.budget - displacement.norm() - motion.time_step * s.radius * motion.spin.norm();
+  if (budget < 0. || overlap <= 0.)
+    return false;
+  const double old_overlap = s.overlap;
+  s.overlap = overlap;
+  s.budget = budget;
+  s.spin += 0.5 * motion.time_step * motion.spin.dot(s.normal);
+  force = advance_contact(s, law, old_overlap, displacement, motion.time_step, losses);
+  return true;
 }
 
 } // namespace
@@ -60,7 +93,7 @@ void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall
       fresh.particle.push_back(static_cast<std::int32_t>(i));
       fresh.wall.push_back(static_cast<std::int32_t>(w));
       const auto old = known.find({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
-      fresh.state.push_back(old == known.end() ? ContactState{} : state[old->second]);
+      fresh.state.push_back(old == known.end() ? ContactState<double>::begin() : state[old->second]);
       fresh.rest_until.push_back(old == known.end() ? no_rest : rest_until[old->second]);
       if (old != known.end())
         known.erase(old);
@@ -69,8 +102,7 @@ void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall
   }
   for (const auto &[key, k] : known)
   {
-    release(state[k]);
-    fresh.losses.take(state[k]);
+    fresh.losses += release(state[k]);
   }
   fresh.resultant.assign(fresh.size(), {});
   *this = std::move(fresh);
@@ -89,8 +121,7 @@ void WallContacts::remove_wall(const std::int32_t index)
   {
     if (wall[k] == index)
     {
-      release(state[k]);
-      losses.take(state[k]);
+      losses += release(state[k]);
       wall[k] = -1; // no wall has this number: the next renewal drops the contact
     }
     else if (wall[k] > index)
@@ -101,29 +132,50 @@ void WallContacts::remove_wall(const std::int32_t index)
 void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, const ContactLaw &law,
                            const ContactParameters &parameters, const double time_step)
 {
-  std::int64_t searches = 0;
-#pragma omp parallel for schedule(static) reduction(+ : searches)
-  for (std::size_t k = 0; k < size(); ++k)
+  constexpr std::size_t chunk_size = 64; // contacts whose losses are summed together, whatever the threads
+  struct Chunk
+  {
+    ContactLosses losses;
+    std::int64_t n_searches = 0;
+  };
+  std::vector<Chunk> chunks((size() + chunk_size - 1) / chunk_size);
+  const auto step = [&](const std::size_t k, Chunk &chunk)
   {
     const std::int32_t i = particle[k];
     const PlaneWall &plane = walls[wall[k]];
-    if (p.motion[i] + plane.motion < rest_until[k])
-      continue;
+    const bool was_touching = is_touching(k);
+    if (!was_touching && p.motion[i] + plane.motion < rest_until[k])
+      return;
 
-    const Vec3 &omega = p.angular_velocity[i];
-    const ContactMotion motion{time_step * p.bounding_radius[i] * omega.norm(), 0.5 * time_step * omega};
-    const auto displacement_at = [&](const ContactState &s) -> Vec3
-    { return time_step * (plane.velocity - p.velocity[i] - omega.cross(s.point)); };
-    const auto locate_wall = [&](ContactState &s)
+    ContactState<double> &s = state[k];
+    const WallMotion motion{plane.velocity - p.velocity[i], p.angular_velocity[i], time_step};
+    Vec3 force = Vec3::Zero();
+    if (!was_touching || !follow(s, motion, law, force, chunk.losses))
     {
-      ++searches;
-      locate(p, i, plane, s, rest_until[k], law, parameters);
-    };
-    ContactState &s = state[k];
-    const Vec3 force = step_contact(s, law, motion, time_step, displacement_at, locate_wall);
-    resultant[k] = {force, s.point.cross(force), Vec3::Zero()};
+      ++chunk.n_searches;
+      const double overlap = locate(p, i, plane, motion, s, law, parameters, force, chunk.losses);
+      if (!(overlap > 0.))
+      {
+        if (was_touching)
+          chunk.losses += separate(s, s.normal, motion.displacement(s.point));
+        s = ContactState<double>::begin();
+        rest_until[k] = p.motion[i] + plane.motion - overlap;
+      }
+    }
+    resultant[k] = {s.point.cross(force), force, Vec3::Zero()};
+  };
+  parallel_ranges(chunks.size(), 1,
+                  [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t c = begin; c < end; ++c)
+                      for (std::size_t k = c * chunk_size; k < std::min((c + 1) * chunk_size, size()); ++k)
+                        step(k, chunks[c]);
+                  });
+  for (const Chunk &chunk : chunks)
+  {
+    losses += chunk.losses;
+    n_searches += chunk.n_searches;
   }
-  n_searches += searches;
 
   std::vector<Vec3> old_force;
   for (PlaneWall &w : walls)
@@ -132,6 +184,24 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
     walls[wall[k]].force -= resultant[k].force;
   for (std::size_t w = 0; w < walls.size(); ++w)
     walls[w].work -= 0.5 * time_step * (old_force[w] + walls[w].force).dot(walls[w].velocity);
+}
+
+void WallContacts::refresh()
+{
+  for (ContactState<double> &s : state)
+    s.budget = -1.;
+}
+
+ContactEnergy WallContacts::total_energy() const
+{
+  ContactEnergy sum;
+  for (const ContactState<double> &s : state)
+  {
+    const ContactEnergy e = stored_energy(s);
+    sum.normal += e.normal;
+    sum.tangential += e.tangential;
+  }
+  return sum;
 }
 
 } // namespace bergamo::dem

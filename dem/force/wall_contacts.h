@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/force/contact_parameters.h"
-#include "dem/force/contact_step.h"
+#include "dem/force/contact_state.h"
 #include "dem/force/resultant.h"
 #include "dem/state/particles.h"
 #include "dem/state/wall.h"
@@ -18,13 +18,14 @@ struct WallContacts
 {
   std::vector<std::int32_t> row; ///< candidates of particle i: row[i] .. row[i + 1]
   std::vector<std::int32_t> particle, wall;
-  std::vector<ContactState> state;
-  std::vector<double> rest_until; ///< as in PairContacts, against particle.motion + wall.motion [m]
+  std::vector<ContactState<double>> state; ///< overlap > 0 where touching
+  std::vector<double> rest_until; ///< of contacts apart, as in PairContacts, against particle.motion + wall.motion [m]
   std::vector<Resultant> resultant;
-  ContactLosses losses;
+  ContactLosses losses; ///< since the start [J]
   std::int64_t n_searches = 0;
 
   std::size_t size() const { return wall.size(); }
+  bool is_touching(const std::size_t k) const { return state[k].overlap > 0.; }
 
   /// Lists the grains nearer to a wall than their bounding radius plus range [m]; history stays with its contact.
   void renew(const Particles &particles, const std::vector<PlaneWall> &walls, double range);
@@ -39,11 +40,11 @@ struct WallContacts
   void compute(const Particles &particles, std::vector<PlaneWall> &walls, const ContactLaw &law,
                const ContactParameters &parameters, double time_step);
 
-  /// Losses of all contacts since the start [J].
-  ContactLosses total_losses() const { return sum_losses(losses, state); }
+  /// Has every contact searched anew at the next step.
+  void refresh();
 
   /// Energy stored in all contacts [J].
-  ContactEnergy total_energy() const { return sum_energy(state); }
+  ContactEnergy total_energy() const;
 };
 
 } // namespace bergamo::dem

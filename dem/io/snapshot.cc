@@ -33,6 +33,29 @@ void read_structs(const ArchiveReader &archive, const std::string &name, std::ve
     std::memcpy(static_cast<void *>(values.data()), numbers.data(), numbers.size() * sizeof(double));
 }
 
+/// Directions that need no more than single precision.
+std::vector<Vec3> as_vectors(const std::vector<Eigen::Vector3f> &directions)
+{
+  std::vector<Vec3> vectors;
+  for (const Eigen::Vector3f &d : directions)
+    vectors.push_back(d.cast<double>());
+  return vectors;
+}
+
+template <class State>
+void write_states(ArchiveWriter &archive, const std::string &name, const State &store)
+{
+  archive.write(name, as_doubles(store.states()));
+}
+
+template <template <class> class State>
+void read_states(const ArchiveReader &archive, const std::string &name, ContactStore<State> &store)
+{
+  std::vector<State<double>> states;
+  read_structs(archive, name, states);
+  store.restore(states);
+}
+
 void write_indices(ArchiveWriter &archive, const std::string &name, const std::vector<std::int32_t> &values)
 {
   archive.write(name, std::vector<std::int64_t>(values.begin(), values.end()));
@@ -63,9 +86,10 @@ void visit_arrays(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/particles/weight", s.particles.weight);
   visit("dem/particles/motion", s.particles.motion);
   visit("dem/walls", s.walls);
-  visit("dem/pairs/state", s.pairs.state);
   visit("dem/pairs/rest_until", s.pairs.rest_until);
-  visit("dem/pairs/resultant", s.pairs.resultant);
+  visit("dem/pairs/group_rest_until", s.pairs.group_rest_until);
+  visit("dem/pairs/grains/resultant", s.pairs.grains.resultant);
+  visit("dem/pairs/spheres/resultant", s.pairs.spheres.resultant);
   visit("dem/wall_contacts/state", s.wall_contacts.state);
   visit("dem/wall_contacts/rest_until", s.wall_contacts.rest_until);
   visit("dem/wall_contacts/resultant", s.wall_contacts.resultant);
@@ -83,6 +107,15 @@ void visit_indices(Simulation &s, Visit &&visit)
   visit("dem/pairs/second", s.pairs.list.second);
   visit("dem/pairs/incoming_row", s.pairs.list.incoming_row);
   visit("dem/pairs/incoming", s.pairs.list.incoming);
+  visit("dem/pairs/slot", s.pairs.slot);
+  visit("dem/pairs/grains/pair", s.pairs.grains.pair);
+  visit("dem/pairs/grains/first", s.pairs.grains.first);
+  visit("dem/pairs/grains/second", s.pairs.grains.second);
+  visit("dem/pairs/grains/free", s.pairs.grains.free);
+  visit("dem/pairs/spheres/pair", s.pairs.spheres.pair);
+  visit("dem/pairs/spheres/first", s.pairs.spheres.first);
+  visit("dem/pairs/spheres/second", s.pairs.spheres.second);
+  visit("dem/pairs/spheres/free", s.pairs.spheres.free);
   visit("dem/wall_contacts/row", s.wall_contacts.row);
   visit("dem/wall_contacts/particle", s.wall_contacts.particle);
   visit("dem/wall_contacts/wall", s.wall_contacts.wall);
@@ -94,6 +127,7 @@ template <class Simulation, class Hidden, class Visit>
 void visit_scalars(Simulation &s, Hidden &h, Visit &&visit)
 {
   visit("dem/time", s.time);
+  visit("dem/particles/largest_motion", s.particles.largest_motion);
   visit("dem/pairs/friction_loss", s.pairs.losses.friction);
   visit("dem/pairs/viscous_loss", s.pairs.losses.viscous);
   visit("dem/pairs/curvature_work", s.pairs.losses.curvature);
@@ -121,6 +155,9 @@ void write_simulation(ArchiveWriter &archive, const Simulation &s)
   visit_arrays(s, s.hidden(), [&](const char *name, const auto &values) { archive.write(name, as_doubles(values)); });
   visit_indices(s, [&](const char *name, const auto &values) { write_indices(archive, name, values); });
   visit_scalars(s, s.hidden(), [&](const char *name, const auto value) { archive.write(name, value); });
+  archive.write("dem/pairs/separating_direction", as_doubles(as_vectors(s.pairs.separating_direction)));
+  write_states(archive, "dem/pairs/grains/state", s.pairs.grains);
+  write_states(archive, "dem/pairs/spheres/state", s.pairs.spheres);
 }
 
 std::unique_ptr<Simulation> read_simulation(const ArchiveReader &archive, const SimulationParameters &parameters)
@@ -142,6 +179,12 @@ std::unique_ptr<Simulation> read_simulation(const ArchiveReader &archive, const 
                   else
                     value = archive.read_integer(name);
                 });
+  std::vector<Vec3> directions;
+  read_structs(archive, "dem/pairs/separating_direction", directions);
+  for (const Vec3 &d : directions)
+    s.pairs.separating_direction.push_back(d.cast<float>());
+  read_states(archive, "dem/pairs/grains/state", s.pairs.grains);
+  read_states(archive, "dem/pairs/spheres/state", s.pairs.spheres);
   s.restore(std::move(hidden));
   return simulation;
 }

@@ -1,45 +1,83 @@
 #pragma once
 
-#include "dem/core/types.h"
-
-#include <algorithm>
-#include <cmath>
+#include "dem/core/pack.h"
 
 namespace bergamo::dem
 {
 
-/// Stiffness of the contact in its tangent plane: principal values [N/m] along the axes of the contact ellipse.
-struct TangentialStiffness
+/// Tangential stiffness of a contact whose ellipse has two axes, over sqrt(overlap) [N/m^1.5].
+template <class Real>
+struct EllipticStiffness
 {
-  double major, minor;
-  Vec3 major_axis, minor_axis; ///< unit, tangential
+  Real major, minor;
+  Vector3<Real> major_axis, minor_axis; ///< unit, tangential
+
+  Vector3<Real> increment(const Vector3<Real> &displacement) const
+  {
+    return major_axis * (major * major_axis.dot(displacement)) + minor_axis * (minor * minor_axis.dot(displacement));
+  }
+
+  /// Energy stored in the spring by a force, for a stiffness of one sqrt(overlap): f.C.f / 2.
+  Real energy(const Vector3<Real> &force) const
+  {
+    const Real f1 = major_axis.dot(force), f2 = minor_axis.dot(force);
+    return Real(0.5) * (f1 * f1 / major + f2 * f2 / minor);
+  }
 };
 
-inline Vec3 tangential_force_increment(const TangentialStiffness &k, const Vec3 &displacement)
+/// Tangential stiffness of a round contact, over sqrt(overlap) [N/m^1.5].
+template <class Real>
+struct RoundStiffness
 {
-  return k.major * k.major_axis.dot(displacement) * k.major_axis +
-         k.minor * k.minor_axis.dot(displacement) * k.minor_axis;
-}
+  Real stiffness;
 
-/// Energy stored in the tangential springs, f.C.f / 2 [J].
-inline double tangential_energy(const TangentialStiffness &k, const Vec3 &force)
+  Vector3<Real> increment(const Vector3<Real> &displacement) const { return displacement * stiffness; }
+  Real energy(const Vector3<Real> &force) const { return Real(0.5) * force.squaredNorm() / stiffness; }
+};
+
+/// Tangential force after a step and the energy that the step lost [N, J].
+template <class Real>
+struct TangentialStep
 {
-  const double major = k.major_axis.dot(force), minor = k.minor_axis.dot(force);
-  return 0.5 * (major * major / k.major + minor * minor / k.minor);
-}
+  Vector3<Real> force;
+  Real loss;
+};
 
-/// Tangential force of this step, Wellmann (3.25, 3.26).
-/// @param old_force last step's force on body 1, in the present tangent plane [N]
-/// @param shrink present over last contact radius: where the contact shrinks its spring lets go of the same share of
-///        the force (Thornton & Randall 1988); without it a closed loop of loading and shearing would make energy
+/// Tangential force of this step, Wellmann (3.25, 3.26). The loss follows from the trapezoidal rule and the energies
+/// stored.
+/// @param stiffness over sqrt(overlap); @param root, old_root square root of this and the last overlap, root > 0
+/// @param old_force last step's force on body 1, in the present tangent plane [N]. Where the contact shrinks, its
+/// spring
+///        lets go of the same share of the force (Thornton & Randall 1988); without it a closed loop of loading and
+///        shearing would make energy
 /// @param displacement tangential motion of body 2 relative to body 1 since last step [m]
 /// @param limit mu |f_N| [N]
-inline Vec3 tangential_force(const TangentialStiffness &k, const Vec3 &old_force, const double shrink,
-                             const Vec3 &displacement, const double limit)
+template <class Real, class Stiffness>
+TangentialStep<Real> tangential_step(const Stiffness &stiffness, const Real &root, const Real &old_root,
+                                     const Vector3<Real> &old_force, const Vector3<Real> &displacement,
+                                     const Real &limit)
 {
-  const Vec3 trial = std::min(shrink, 1.) * old_force + tangential_force_increment(k, displacement);
-  const double size = trial.norm();
-  return size > limit ? Vec3(trial * (limit / size)) : trial;
+  using math::select;
+  const Real shrink = select(old_root > root, Real(root / old_root), Real(1.));
+  const Vector3<Real> trial = old_force * shrink + stiffness.increment(displacement) * root;
+  const Real size = trial.norm();
+  const Vector3<Real> force = trial * select(size > limit, Real(limit / size), Real(1.));
+  const Real old_stored = select(old_root > Real(0.), Real(stiffness.energy(old_force) / old_root), Real(0.));
+  return {force, Real(0.5) * (old_force + force).dot(displacement) - (stiffness.energy(force) / root - old_stored)};
+}
+
+/// The force that a contact had, turned with it onto a new tangent plane: magnitude kept (Wellmann 3.24 ff.).
+/// @param spin mean rotation of both bodies about the normal since the force was last turned, |spin| < 0.5 [rad]
+template <class Real>
+Vector3<Real> turn_force(const Vector3<Real> &force, const Vector3<Real> &normal, const Real &spin)
+{
+  const Vector3<Real> flat = force - normal * normal.dot(force);
+  // Only the direction counts: flat + tan(spin) normal x flat. Pade's tangent, error spin^7/4725.
+  const Real square = spin * spin;
+  const Real tangent = spin * (Real(15.) - square) / (Real(15.) - Real(6.) * square);
+  const Vector3<Real> turned = flat + normal.cross(flat) * tangent;
+  const Real length = turned.squaredNorm();
+  return turned * math::select(length > Real(0.), Real(math::sqrt(force.squaredNorm() / length)), Real(0.));
 }
 
 } // namespace bergamo::dem

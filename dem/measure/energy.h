@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/force/contact_step.h"
+#include "dem/force/contact_law.h"
 #include "dem/state/particles.h"
 #include "dem/state/wall.h"
 

@@ -14,31 +14,25 @@ struct Motion
   std::vector<Vec3> translation, rotation;
 };
 
-/// Stiffness and damping of one touching contact, weighted.
+/// Stiffness and damping of one touching contact, without the weight.
 struct Coefficients
 {
-  double normal, damping;
-  TangentialStiffness tangential;
+  double normal, damping, root;
+  EllipticStiffness<double> tangential; ///< over the root of the overlap
 };
 
-Coefficients coefficients(const ContactState &s, const ContactLaw &law)
+Coefficients coefficients(const ContactState<double> &s, const ContactLaw &law)
 {
-  const double root = std::sqrt(s.overlap);
-  const double normal = 1.5 * s.stiffness.normal * root;
-  return {normal, dashpot(law.damping_ratio, normal, s.reduced_mass, 1.), tangential_stiffness(s, root)};
-}
-
-bool is_touching(const ContactState &s)
-{
-  return s.touching != 0. && s.overlap > 0.;
+  const double root = std::sqrt(s.overlap), normal = 1.5 * s.stiffness.normal * root;
+  return {normal, normal_damping(law, normal, s.reduced_mass), root, s.tangential_stiffness()};
 }
 
 /// Forces K x dt^2/4 + C x dt/2 of all contacts on a motion x, divided by mass and inertia.
 class Operator
 {
 public:
-  Operator(const Particles &p, const PairContacts &pairs, const ContactLaw &pair_law, const WallContacts &walls,
-           const ContactLaw &wall_law)
+  Operator(const Particles &p, const std::vector<TouchingContact> &pairs, const ContactLaw &pair_law,
+           const WallContacts &walls, const ContactLaw &wall_law)
       : p(p), pairs(pairs), walls(walls), pair_law(pair_law), wall_law(wall_law)
   {
   }
@@ -49,22 +43,18 @@ public:
   {
     Motion y{std::vector<Vec3>(p.size(), Vec3::Zero()), std::vector<Vec3>(p.size(), Vec3::Zero())};
     stiff = damped = 0.;
-    const auto force_of = [&](const ContactState &s, const ContactLaw &law, const Vec3 &d) -> Vec3
+    const auto force_of = [&](const ContactState<double> &s, const ContactLaw &law, const Vec3 &d) -> Vec3
     {
       const Coefficients k = coefficients(s, law);
       const double along = s.normal.dot(d);
-      const Vec3 elastic = s.weight * (k.normal * along * s.normal + tangential_force_increment(k.tangential, d));
+      const Vec3 elastic = s.weight * (k.normal * along * s.normal + k.root * k.tangential.increment(d));
       const Vec3 viscous = s.weight * k.damping * along * s.normal;
       stiff += elastic.dot(d);
       damped += viscous.dot(d);
       return stiffness_factor * elastic + damping_factor * viscous;
     };
-    for (std::size_t pair = 0; pair < pairs.list.size(); ++pair)
+    for (const auto &[i, j, s] : pairs)
     {
-      const ContactState &s = pairs.state[pair];
-      if (!is_touching(s))
-        continue;
-      const auto i = pairs.list.first[pair], j = pairs.list.second[pair];
       const Vec3 half_line = 0.5 * (p.position[j] - p.position[i]);
       const Vec3 arm1 = s.point + half_line, arm2 = s.point - half_line;
       const Vec3 f = force_of(
@@ -76,9 +66,9 @@ public:
     }
     for (std::size_t k = 0; k < walls.size(); ++k)
     {
-      const ContactState &s = walls.state[k];
-      if (!is_touching(s))
+      if (!walls.is_touching(k))
         continue;
+      const ContactState<double> &s = walls.state[k];
       const auto i = walls.particle[k];
       const Vec3 f = force_of(s, wall_law, x.translation[i] + x.rotation[i].cross(s.point));
       y.translation[i] += f;
@@ -111,7 +101,7 @@ private:
   }
 
   const Particles &p;
-  const PairContacts &pairs;
+  const std::vector<TouchingContact> &pairs;
   const WallContacts &walls;
   const ContactLaw &pair_law, &wall_law;
 };
@@ -126,8 +116,9 @@ void scale(Motion &x, const double factor)
 
 } // namespace
 
-double stable_time_step(const Particles &particles, const PairContacts &pairs, const ContactLaw &pair_law,
-                        const WallContacts &walls, const ContactLaw &wall_law, const double guess)
+double stable_time_step(const Particles &particles, const std::vector<TouchingContact> &pairs,
+                        const ContactLaw &pair_law, const WallContacts &walls, const ContactLaw &wall_law,
+                        const double guess)
 {
   constexpr int n_rounds = 3, n_iterations = 40;
   const Operator op(particles, pairs, pair_law, walls, wall_law);

@@ -12,7 +12,8 @@ namespace bergamo::dem
 /// K and C the stiffness and damping of all contacts, translations and rotations, found by power iteration.
 /// Infinity without contacts. Contacts grow stiffer as they are pressed: leave a margin.
 /// @param guess a time step near the answer [s]
-double stable_time_step(const Particles &particles, const PairContacts &pairs, const ContactLaw &pair_law,
-                        const WallContacts &walls, const ContactLaw &wall_law, double guess);
+double stable_time_step(const Particles &particles, const std::vector<TouchingContact> &pairs,
+                        const ContactLaw &pair_law, const WallContacts &walls, const ContactLaw &wall_law,
+                        double guess);
 
 } // namespace bergamo::dem

@@ -51,7 +51,7 @@ std::vector<double> wall_stiffness(const Simulation &simulation)
   std::vector<double> sum(simulation.walls.size(), 0.);
   const WallContacts &contacts = simulation.wall_contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    if (contacts.state[k].touching != 0.)
+    if (contacts.is_touching(k))
       sum[contacts.wall[k]] += 1.5 * contacts.state[k].stiffness.normal * std::sqrt(contacts.state[k].overlap);
   return sum;
 }
@@ -122,17 +122,16 @@ double unbalanced_force(const Simulation &simulation)
     resultant += f;
     n_loaded += f > 0.;
   }
-  const auto add = [&](const std::vector<ContactState> &states)
+  const auto add = [&](const ContactState<double> &s)
   {
-    for (const ContactState &s : states)
-      if (s.touching != 0.)
-      {
-        contact += std::hypot(s.normal_force, s.tangential_force.norm());
-        ++n_contacts;
-      }
+    contact += std::hypot(s.forces.normal, s.forces.tangential.norm());
+    ++n_contacts;
   };
-  add(simulation.pairs.state);
-  add(simulation.wall_contacts.state);
+  for (const TouchingContact &pair : simulation.pairs.touching(simulation.particles))
+    add(pair.state);
+  for (std::size_t k = 0; k < simulation.wall_contacts.size(); ++k)
+    if (simulation.wall_contacts.is_touching(k))
+      add(simulation.wall_contacts.state[k]);
   if (n_loaded == 0 || n_contacts == 0 || contact == 0.)
     return 1.;
   return (resultant / n_loaded) / (contact / n_contacts);

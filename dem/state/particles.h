@@ -34,6 +34,7 @@ struct Particles
   std::vector<double> weight;
 
   std::vector<double> motion; ///< path length that bounds the motion of any surface point since the start [m]
+  double largest_motion = 0.; ///< sum over the steps of the largest growth of any grain's motion [m]
 
   std::size_t size() const { return position.size(); }
 

@@ -37,22 +37,17 @@ PackingFigures packing_figures(const dem::Simulation &grains)
 
 double coordination_number(const dem::Simulation &grains)
 {
-  const auto n_touching = std::count_if(grains.pairs.state.begin(), grains.pairs.state.end(),
-                                        [](const dem::ContactState &s) { return s.touching != 0.; });
-  return 2. * n_touching / grains.particles.size();
+  return 2. * grains.pairs.n_touching() / grains.particles.size();
 }
 
 double max_overlap_over_radius(const dem::Simulation &grains)
 {
   double largest = 0.;
   const auto &radius = grains.particles.bounding_radius;
-  for (std::size_t k = 0; k < grains.pairs.list.size(); ++k)
-    if (grains.pairs.state[k].touching != 0.)
-      largest = std::max(largest, grains.pairs.state[k].overlap / std::min(radius[grains.pairs.list.first[k]],
-                                                                           radius[grains.pairs.list.second[k]]));
+  for (const auto &[first, second, state] : grains.pairs.touching(grains.particles))
+    largest = std::max(largest, state.overlap / std::min(radius[first], radius[second]));
   for (std::size_t k = 0; k < grains.wall_contacts.size(); ++k)
-    if (grains.wall_contacts.state[k].touching != 0.)
-      largest = std::max(largest, grains.wall_contacts.state[k].overlap / radius[grains.wall_contacts.particle[k]]);
+    largest = std::max(largest, grains.wall_contacts.state[k].overlap / radius[grains.wall_contacts.particle[k]]);
   return largest;
 }
 

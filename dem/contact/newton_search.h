@@ -1,0 +1,193 @@
+#pragma once
+
+#include "dem/contact/geometry.h"
+
+namespace bergamo::dem
+{
+
+/// phi and its parts at one direction c, for one pair (double) or a pack of pairs.
+template <class Real>
+struct Evaluation
+{
+  Vector3<Real> c;
+  Real phi;           ///< [m]
+  Vector3<Real> gap;  ///< p2 - p1 [m]
+  Vector3<Real> arm1; ///< p1 - x1 [m]
+  CurvatureRadii<Real> radii1, radii2;
+  Real reach; ///< h1(c) + h2(-c): the magnitude that phi is the rounded difference of [m]
+
+  Evaluation(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &c) : c(c)
+  {
+    const TangentFrameOf<Real> frame = tangent_frame(c);
+    const PlacedSupport<Real> s1 = support<Real>(body1, c, frame), s2 = support<Real>(body2, -c, frame);
+    const Vector3<Real> centre_line = body2.position - body1.position;
+    reach = s1.height + s2.height;
+    phi = reach - c.dot(centre_line);
+    gap = centre_line + s2.arm - s1.arm;
+    arm1 = s1.arm;
+    radii1 = s1.radii;
+    radii2 = s2.radii;
+  }
+
+  /// The part of p2 - p1 that vanishes at the common normal.
+  Vector3<Real> tangential_gap() const { return gap - c * c.dot(gap); }
+
+  void replace_where(const math::Mask<Real> &mask, const Evaluation &other)
+  {
+    c = math::select<Real>(mask, other.c, c);
+    phi = math::select(mask, other.phi, phi);
+    gap = math::select<Real>(mask, other.gap, gap);
+    arm1 = math::select<Real>(mask, other.arm1, arm1);
+    reach = math::select(mask, other.reach, reach);
+    for (auto radii : {&Evaluation::radii1, &Evaluation::radii2})
+      for (auto entry : {&CurvatureRadii<Real>::r11, &CurvatureRadii<Real>::r22, &CurvatureRadii<Real>::r12})
+        this->*radii.*entry = math::select(mask, other.*radii.*entry, this->*radii.*entry);
+  }
+};
+
+/// Hessian of phi on the unit sphere: H1 + H2 in the tangent plane; -phi comes from the curvature of the sphere [m].
+template <class Real>
+struct SphereHessian
+{
+  Real b11, b22, b12, low; ///< low: the smaller eigenvalue
+
+  explicit SphereHessian(const Evaluation<Real> &e)
+  {
+    const CurvatureRadii<Real> radii = e.radii1 + e.radii2;
+    b11 = radii.r11 - e.phi;
+    b22 = radii.r22 - e.phi;
+    b12 = radii.r12;
+    // Beside the huge eigenvalue of a flat face the difference of mean and radius would cancel to nothing: the
+    // determinant keeps the small one.
+    const Real half(0.5);
+    const Real mean = half * (b11 + b22), difference = half * (b11 - b22);
+    const Real scale = math::max(math::max(math::abs(difference), math::abs(b12)), Real(1e-150));
+    const Real x = difference / scale, y = b12 / scale;
+    const Real radius = scale * math::sqrt(x * x + y * y); // without overflow
+    const Real high = mean + radius;
+    low = math::select(mean > Real(0.), Real(b11 / high * b22 - b12 / high * b12), Real(mean - radius));
+  }
+};
+
+/// Minimises phi from a start direction: Newton on the sphere with a line search that never goes uphill. The same
+/// source for one pair and for packs, where every lane goes its own way until it is decided.
+template <class Real>
+class NewtonSearch
+{
+public:
+  using Mask = math::Mask<Real>;
+
+  NewtonSearch(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &start)
+      : best(body1, body2, start), body1(body1), body2(body2)
+  {
+    const auto smallest = [](const SupportShape<Real> &s) { return math::min(math::min(s.r1, s.r2), s.r3); };
+    length_scale = math::min(smallest(body1.shape), smallest(body2.shape));
+    longest = Real(longest_step);
+    tangential = best.tangential_gap();
+    step = newton_step();
+    decide();
+  }
+
+  /// Goes on until every lane is decided or the evaluations are used up.
+  void run(const int max_evaluations)
+  {
+    while (math::any(is_open) && n_evaluations < max_evaluations)
+      advance();
+  }
+
+  Evaluation<Real> best; ///< the least phi found
+  Real length_scale;     ///< smallest half-axis of both bodies [m]
+  Mask is_open;          ///< not decided yet: the others are either separated (phi < 0) or at a minimum
+  int n_evaluations = 1; ///< of the lane that took longest
+
+private:
+  static constexpr double longest_step = 0.5;     // about 30 degrees: the model says nothing beyond
+  static constexpr double least_curvature = 1e-6; // of the model, over the smallest half-axis
+  static constexpr double tolerance = 1e-10;      // of the tangential gap, over the smallest half-axis
+  static constexpr double resolution = 1e-15;     // of a unit vector
+  static constexpr double growth = 1.5;           // of the longest step after a success
+  static constexpr double max_widenings = 3.;
+  static constexpr double wide_enough = 0.2; // tangential part over width of the gap
+
+  /// Step of the Newton model on the tangent plane, shifted until the model is convex: always downhill.
+  Vector3<Real> newton_step() const
+  {
+    using math::abs, math::max, math::min, math::select, math::sqrt;
+    const TangentFrameOf<Real> frame = tangent_frame(best.c);
+    const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1);
+    const Real g1 = -t1.dot(best.gap), g2 = -t2.dot(best.gap);
+    const SphereHessian<Real> b(best);
+    const Real least = Real(least_curvature) * length_scale;
+    const Real shift = select(b.low < least, Real(max(least, abs(b.low)) - b.low), Real(0.));
+    const Real b11 = b.b11 + shift, b22 = b.b22 + shift, det = b11 * b22 - b.b12 * b.b12;
+    Real s1 = (g2 * b.b12 - g1 * b22) / det, s2 = (g1 * b.b12 - g2 * b11) / det;
+    const Real length = sqrt(s1 * s1 + s2 * s2);
+    const Real factor = select(length <= longest, Real(1.), Real(longest / length));
+    const Mask is_finite = length < Real(1e300);
+    s1 = select(is_finite, Real(s1 * factor), Real(0.));
+    s2 = select(is_finite, Real(s2 * factor), Real(0.));
+    return t1 * s1 + t2 * s2;
+  }
+
+  /// Closes lanes: a common normal; or a separating direction, after it was improved where that is cheap, so that the
+  /// pair can rest longer.
+  void decide()
+  {
+    const Mask is_apart = best.phi < Real(0.);
+    const Real size = tangential.norm();
+    // On a flat face p moves a lot for a change of c below resolution: then c is as good as it can be.
+    const Mask at_minimum = size < Real(tolerance) * length_scale || step.norm() < Real(resolution);
+    const Mask is_wide = size < Real(-wide_enough) * best.phi || widenings >= Real(max_widenings);
+    is_open = !((is_apart && is_wide) || (!is_apart && at_minimum));
+  }
+
+  void advance()
+  {
+    using math::max, math::min, math::select;
+    const Vector3<Real> target = best.c + step;
+    const Evaluation<Real> trial(body1, body2, target / target.norm());
+    ++n_evaluations;
+    const Vector3<Real> trial_tangential = trial.tangential_gap();
+    const Mask was_apart = best.phi < Real(0.);
+
+    // Near the minimum phi is flat to rounding: there the shorter tangential gap decides.
+    const Real noise = Real(1e-15) * best.reach;
+    const Mask is_downhill =
+        trial.phi < best.phi - noise ||
+        (trial.phi <= best.phi + noise && trial_tangential.squaredNorm() < tangential.squaredNorm());
+    // Where a surface is flat (exponent below one) the full step jumps across the minimum to about the same slope on
+    // the other side, again and again: a step counts only if it takes off half of the slope.
+    const Real slope = -step.dot(tangential), trial_slope = -step.dot(trial_tangential);
+    const Mask is_better = is_open && ((was_apart && trial.phi < best.phi) ||
+                                       (!was_apart && is_downhill && trial_slope < Real(-0.5) * slope));
+    const Real length = step.norm();
+    best.replace_where(is_better, trial);
+    tangential = select<Real>(is_better, trial_tangential, tangential);
+    widenings = widenings + select(was_apart, select(is_better, Real(1.), Real(max_widenings)), Real(0.));
+
+    // A success may lengthen the next step. A failure shortens this one to where both slopes say that phi is least;
+    // near the kink of a flat face Newton's step is too long by 1/(q - 1): remember what was found.
+    const Real secant = slope / (slope - trial_slope);
+    const Real share = select(secant == secant, math::clamp(secant, Real(0.05), Real(0.7)), Real(0.25));
+    longest = select(is_better, min(Real(longest_step), max(longest, Real(growth) * length)), Real(length * share));
+    step = select<Real>(is_better, newton_step(), step * share);
+    decide();
+  }
+
+  Pose<Real> body1, body2;
+  Vector3<Real> tangential; ///< gap at best
+  Vector3<Real> step;       ///< next to be tried
+  Real longest;             ///< step allowed [rad]
+  Real widenings = Real(0.);
+};
+
+/// Whether the minimum found from the centre line may not be the least one: an overlap deep enough for phi to have
+/// several.
+template <class Real>
+math::Mask<Real> is_suspicious(const NewtonSearch<Real> &search)
+{
+  constexpr double deep_overlap = 0.02; // over the smallest half-axis
+  return search.best.phi > Real(deep_overlap) * search.length_scale;
+}
+
+} // namespace bergamo::dem

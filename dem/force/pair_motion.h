@@ -1,0 +1,61 @@
+#pragma once
+
+#include "dem/core/pack.h"
+#include "dem/force/resultant.h"
+#include "dem/state/particles.h"
+
+namespace bergamo::dem
+{
+
+/// Rigid motion of the two grains of a contact since the last step, global frame.
+template <class Real>
+struct PairMotion
+{
+  Vector3<Real> half_line;                 ///< half of x2 - x1 at this step [m]
+  Vector3<Real> velocity;                  ///< v2 - v1 [m/s]
+  Vector3<Real> spin_sum, spin_difference; ///< w1 + w2, w2 - w1 [1/s]
+  double time_step;
+
+  /// @param first, second grains of a lane: first(lane), second(lane)
+  template <class First, class Second>
+  PairMotion(const Particles &p, const First &first, const Second &second, const double time_step)
+      : time_step(time_step)
+  {
+    const auto load = [](const std::vector<Vec3> &values, const auto &index)
+    {
+      return math::generate_vector<Real>([&](const int lane) -> const Vec3 & { return values[index(lane)]; });
+    };
+    half_line = (load(p.position, second) - load(p.position, first)) * Real(0.5);
+    velocity = load(p.velocity, second) - load(p.velocity, first);
+    const Vector3<Real> spin1 = load(p.angular_velocity, first), spin2 = load(p.angular_velocity, second);
+    spin_sum = spin1 + spin2;
+    spin_difference = spin2 - spin1;
+  }
+
+  /// Motion of body 2 relative to body 1 at a contact point, with the arms of the middle of the step [m].
+  /// @param point minus the midpoint of the centres [m]
+  Vector3<Real> displacement(const Vector3<Real> &point) const
+  {
+    const Vector3<Real> middle = half_line - velocity * Real(0.25 * time_step);
+    return (velocity + spin_difference.cross(point) - spin_sum.cross(middle)) * Real(time_step);
+  }
+
+  /// Mean rotation of both bodies about a unit vector [rad].
+  Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin_sum) * Real(0.5 * time_step); }
+
+  /// Bound of the sum of both rotations [rad].
+  Real rotation() const { return math::sqrt(spin_sum.squaredNorm() + spin_difference.squaredNorm()) * Real(time_step); }
+};
+
+/// Writes what contacts give to their bodies. @param target target(lane): Resultant & or nothing to write (nullptr)
+template <class Real, class Target>
+void store_resultants(const Vector3<Real> &force, const Vector3<Real> &point, const Vector3<Real> &half_line,
+                      const Target &target)
+{
+  const Vector3<Real> torque1 = (half_line + point).cross(force), torque2 = (half_line - point).cross(force);
+  for (int lane = 0; lane < width<Real>; ++lane)
+    if (Resultant *r = target(lane))
+      *r = {math::lane<Real>(torque1, lane), math::lane<Real>(force, lane), math::lane<Real>(torque2, lane)};
+}
+
+} // namespace bergamo::dem
