@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 #include "dem/core/parallel.h"
+#include "dem/motion/leapfrog.h"
 #include "dem/motion/rotation.h"
 #include "dem/motion/stable_step.h"
 #include "dem/neighbour/cell_grid.h"
@@ -69,8 +70,6 @@ Simulation::Simulation(const SimulationParameters &parameters, Particles new_par
   const double mean_radius =
       std::accumulate(particles.bounding_radius.begin(), particles.bounding_radius.end(), 0.) / particles.size();
   h.verlet_distance = p.verlet_distance * mean_radius;
-  h.external_work.assign(particles.size(), 0.);
-  h.last_external_force.assign(particles.size(), Vec3::Zero());
   index_of_id.resize(particles.size());
   sort_by_place();
   h.start_potential = gravity_potential();
@@ -98,11 +97,25 @@ void Simulation::rebuild_neighbours()
   pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, h.verlet_distance), particles);
   wall_contacts.renew(particles, walls, h.verlet_distance);
   h.position_when_built = particles.position;
-  h.largest_square_motion = 0.;
+  h.look_at_motion = particles.largest_motion + 0.5 * h.verlet_distance;
   h.wall_motion_when_built.clear();
   for (const PlaneWall &wall : walls)
     h.wall_motion_when_built.push_back(wall.motion);
   ++n_rebuilds;
+}
+
+bool Simulation::grains_left_their_neighbours()
+{
+  const double limit = 0.5 * h.verlet_distance;
+  if (particles.largest_motion < h.look_at_motion)
+    return false;
+  double largest_square = 0.;
+#pragma omp parallel for schedule(static) reduction(max : largest_square)
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    largest_square = std::max(largest_square, (particles.position[i] - h.position_when_built[i]).squaredNorm());
+  const double largest = std::sqrt(largest_square);
+  h.look_at_motion = particles.largest_motion + (limit - largest);
+  return largest > limit;
 }
 
 void Simulation::sort_by_place()
@@ -121,11 +134,15 @@ void Simulation::sort_by_place()
   permute(particles.angular_velocity, order);
   permute(particles.force, order);
   permute(particles.torque, order);
-  permute(particles.external_force, order);
+  if (!particles.external_force.empty())
+    permute(particles.external_force, order);
   permute(particles.weight, order);
   permute(particles.motion, order);
-  permute(h.external_work, order);
-  permute(h.last_external_force, order);
+  if (!h.external_work.empty())
+  {
+    permute(h.external_work, order);
+    permute(h.last_external_force, order);
+  }
   pairs.reorder(order, particles);
   wall_contacts.reorder(order);
   for (std::size_t i = 0; i < particles.size(); ++i)
@@ -152,11 +169,13 @@ void Simulation::compute_forces()
   bool wall_moved = false;
   for (std::size_t w = 0; w < walls.size(); ++w)
     wall_moved = wall_moved || walls[w].motion - h.wall_motion_when_built[w] > 0.5 * h.verlet_distance;
-  if (wall_moved || h.largest_square_motion > 0.25 * h.verlet_distance * h.verlet_distance)
+  Stopwatch watch;
+  if (wall_moved || grains_left_their_neighbours())
     rebuild_neighbours();
+  watch.lap(times.neighbours);
 
   pairs.compute(particles, pair_law, p.contact, p.time_step, times);
-  Stopwatch watch;
+  watch.restart();
   wall_contacts.compute(particles, walls, wall_law, p.contact, p.time_step);
   watch.lap(times.walls);
   sum_contact_forces();
@@ -170,13 +189,7 @@ void Simulation::sum_contact_forces()
                {
                  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
                  pairs.add_resultants(static_cast<std::int32_t>(i), force, torque);
-                 for (auto k = wall_contacts.row[i]; k < wall_contacts.row[i + 1]; ++k)
-                 {
-                   if (!wall_contacts.is_touching(k))
-                     continue;
-                   force += wall_contacts.resultant[k].force;
-                   torque += wall_contacts.resultant[k].torque1;
-                 }
+                 wall_contacts.add_resultants(static_cast<std::int32_t>(i), force, torque);
                  particles.force[i] = force;
                  particles.torque[i] = torque;
                });
@@ -184,32 +197,11 @@ void Simulation::sum_contact_forces()
 
 void Simulation::integrate()
 {
+  Stopwatch watch;
   const double dt = p.time_step;
-  double largest = h.largest_square_motion, largest_motion = 0.;
-#pragma omp parallel for schedule(static) reduction(max : largest, largest_motion)
-  for (std::size_t i = 0; i < particles.size(); ++i)
-  {
-    Vec3 &v = particles.velocity[i];
-    const Vec3 &external = particles.external_force[i];
-    h.external_work[i] += 0.5 * dt * (h.last_external_force[i] + external).dot(v);
-    h.last_external_force[i] = external;
-
-    v += dt * ((particles.force[i] + external) / (particles.weight[i] * particles.mass[i]) + p.gravity);
-    particles.position[i] += dt * v;
-
-    Vec3 &momentum = particles.angular_momentum[i];
-    momentum += dt / particles.weight[i] * particles.torque[i];
-    const Vec3 omega = mean_angular_velocity(particles.orientation[i], particles.inertia[i], momentum, dt);
-    particles.angular_velocity[i] = omega;
-    particles.orientation[i] = (rotation(dt * omega) * particles.orientation[i]).normalized();
-
-    const double motion = dt * (v.norm() + omega.norm() * particles.bounding_radius[i]);
-    particles.motion[i] += motion;
-    largest_motion = std::max(largest_motion, motion);
-    largest = std::max(largest, (particles.position[i] - h.position_when_built[i]).squaredNorm());
-  }
-  h.largest_square_motion = largest;
-  particles.largest_motion += largest_motion;
+  if (!particles.external_force.empty())
+    book_external_work();
+  const bool is_finite = advance(particles, p.gravity, dt);
   for (PlaneWall &wall : walls)
   {
     wall.point += dt * wall.velocity;
@@ -217,6 +209,23 @@ void Simulation::integrate()
   }
   time += dt;
   ++n_steps;
+  if (!is_finite)
+    check_finite();
+  watch.lap(times.motion);
+}
+
+void Simulation::book_external_work()
+{
+  h.external_work.resize(particles.size(), 0.);
+  h.last_external_force.resize(particles.size(), Vec3::Zero());
+  parallel_for(particles.size(),
+               [&](const std::size_t i)
+               {
+                 const Vec3 &external = particles.external_force[i];
+                 h.external_work[i] +=
+                     0.5 * p.time_step * (h.last_external_force[i] + external).dot(particles.velocity[i]);
+                 h.last_external_force[i] = external;
+               });
 }
 
 void Simulation::rest()
@@ -253,13 +262,21 @@ GrainEnergy Simulation::energy() const
   {
     const double mass = particles.weight[i] * particles.mass[i];
     const Vec3 &v = particles.velocity[i];
-    const Vec3 next = v + dt * ((particles.force[i] + particles.external_force[i]) / mass + p.gravity);
+    Vec3 force = particles.force[i];
+    if (!particles.external_force.empty())
+      force += particles.external_force[i];
+    const Vec3 next = v + dt * (force / mass + p.gravity);
     const Vec3 &momentum = particles.angular_momentum[i];
     const Vec3 next_momentum = momentum + dt / particles.weight[i] * particles.torque[i];
-    e.kinetic += 0.5 * mass * v.dot(next) +
-                 0.5 * particles.weight[i] *
-                     momentum.dot(angular_velocity(particles.orientation[i], particles.inertia[i], next_momentum));
-    e.external_work += h.external_work[i] + 0.5 * dt * (h.last_external_force[i] + particles.external_force[i]).dot(v);
+    const Mat3 rotation = particles.orientation[i].toRotationMatrix();
+    e.kinetic +=
+        0.5 * mass * v.dot(next) +
+        0.5 * particles.weight[i] * momentum.dot(angular_velocity(rotation, particles.inertia[i], next_momentum));
+    if (h.external_work.empty())
+      continue;
+    e.external_work += h.external_work[i];
+    if (!particles.external_force.empty())
+      e.external_work += 0.5 * dt * (h.last_external_force[i] + particles.external_force[i]).dot(v);
   }
   for (const auto &stored : {pairs.total_energy(), wall_contacts.total_energy()})
   {

@@ -92,14 +92,14 @@ public:
   /// What a restart needs beyond the public state; dem/io/snapshot stores it.
   struct Hidden
   {
-    double verlet_distance = 0.;       ///< [m]
-    double largest_square_motion = 0.; ///< since the neighbours were built [m^2]
+    double verlet_distance = 0.; ///< [m]
+    double look_at_motion = 0.;  ///< particles.largest_motion below which no grain can have left its neighbours [m]
     std::vector<Vec3> position_when_built;
     std::vector<double> wall_motion_when_built;
     double start_potential = 0.;           ///< of gravity when the accounts were opened [J]
     double removed_wall_work = 0.;         ///< done since then by walls that were removed [J]
-    std::vector<double> external_work;     ///< done on each grain since then [J]
-    std::vector<Vec3> last_external_force; ///< [N]
+    std::vector<double> external_work;     ///< done on each grain since then, or empty [J]
+    std::vector<Vec3> last_external_force; ///< [N], or empty
   };
   const Hidden &hidden() const { return h; }
 
@@ -108,7 +108,9 @@ public:
   void restore(Hidden hidden) { h = std::move(hidden); }
 
 private:
+  bool grains_left_their_neighbours();
   void rebuild_neighbours();
+  void book_external_work();
   void sum_contact_forces();
   double gravity_potential() const;
 

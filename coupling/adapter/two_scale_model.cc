@@ -48,6 +48,8 @@ void TwoScaleModel::join(const CouplingParameters &parameters, const std::span<c
     grains_->refresh_contacts();
   body_->set_share(nodal_weight);
 
+  if (p.external_force.empty())
+    p.external_force.assign(p.size(), dem::Vec3::Zero());
   particle_displacement_.resize(overlap.n_particles());
   particle_force_.resize(overlap.n_particles());
   coupling_.emplace(std::move(overlap), parameters.projection, parameters.penalty);

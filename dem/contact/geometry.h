@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/core/rotation_matrix.h"
 #include "dem/core/tangent_frame.h"
 #include "dem/core/types.h"
 #include "dem/shape/superquadric.h"
@@ -66,19 +67,9 @@ struct PlacedSupport
 template <class Real>
 PlacedSupport<Real> support(const Pose<Real> &body, const Vector3<Real> &normal, const TangentFrameOf<Real> &frame)
 {
-  const auto to_body = [&](const auto &v) -> Vector3<Real>
-  {
-    const Matrix3<Real> &r = body.rotation;
-    return {r(0, 0) * v[0] + r(1, 0) * v[1] + r(2, 0) * v[2], r(0, 1) * v[0] + r(1, 1) * v[1] + r(2, 1) * v[2],
-            r(0, 2) * v[0] + r(1, 2) * v[1] + r(2, 2) * v[2]};
-  };
-  const auto to_global = [&](const Real &x, const Real &y, const Real &z) -> Vector3<Real>
-  {
-    const Matrix3<Real> &r = body.rotation;
-    return {r(0, 0) * x + r(0, 1) * y + r(0, 2) * z, r(1, 0) * x + r(1, 1) * y + r(1, 2) * z,
-            r(2, 0) * x + r(2, 1) * y + r(2, 2) * z};
-  };
-  const Vector3<Real> n = to_body(normal), t1 = to_body(frame.col(0)), t2 = to_body(frame.col(1));
+  const Matrix3<Real> &r = body.rotation;
+  const Vector3<Real> n = turn_back(r, normal), t1 = turn_back<Real>(r, frame.col(0)),
+                      t2 = turn_back<Real>(r, frame.col(1));
   const Support<Real> s = support(body.shape, n[0], n[1], n[2]);
   const auto times_hessian = [&](const Vector3<Real> &t) -> Vector3<Real>
   {
@@ -86,7 +77,7 @@ PlacedSupport<Real> support(const Pose<Real> &body, const Vector3<Real> &normal,
             s.h13 * t[0] + s.h23 * t[1] + s.h33 * t[2]};
   };
   const Vector3<Real> h1 = times_hessian(t1), h2 = times_hessian(t2);
-  return {s.h, to_global(s.x1, s.x2, s.x3), {t1.dot(h1), t2.dot(h2), t1.dot(h2)}};
+  return {s.h, turn(r, Vector3<Real>(s.x1, s.x2, s.x3)), {t1.dot(h1), t2.dot(h2), t1.dot(h2)}};
 }
 
 inline PlacedSupport<double> support(const BodyPose &body, const Vec3 &normal)

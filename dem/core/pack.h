@@ -19,6 +19,9 @@ namespace bergamo::dem
 using Pack = std::experimental::native_simd<double>;
 inline constexpr int pack_width = static_cast<int>(Pack::size());
 
+/// Small functions of packs: a call would spill every register.
+#define BERGAMO_INLINE [[gnu::always_inline]] inline
+
 namespace math
 {
 
@@ -36,121 +39,121 @@ struct MaskOf<double>
 template <class Real>
 using Mask = typename MaskOf<Real>::type;
 
-inline bool any(const bool mask)
+BERGAMO_INLINE bool any(const bool mask)
 {
   return mask;
 }
-inline bool any(const Pack::mask_type &mask)
+BERGAMO_INLINE bool any(const Pack::mask_type &mask)
 {
   return std::experimental::any_of(mask);
 }
 
-inline double select(const bool mask, const double yes, const double no)
+BERGAMO_INLINE double select(const bool mask, const double yes, const double no)
 {
   return mask ? yes : no;
 }
-inline Pack select(const Pack::mask_type &mask, const Pack &yes, Pack no)
+BERGAMO_INLINE Pack select(const Pack::mask_type &mask, const Pack &yes, Pack no)
 {
   where(mask, no) = yes;
   return no;
 }
 template <class Real>
-Vector3<Real> select(const Mask<Real> &mask, const Vector3<Real> &yes, const Vector3<Real> &no)
+BERGAMO_INLINE Vector3<Real> select(const Mask<Real> &mask, const Vector3<Real> &yes, const Vector3<Real> &no)
 {
   return {select(mask, yes[0], no[0]), select(mask, yes[1], no[1]), select(mask, yes[2], no[2])};
 }
 
 using std::abs, std::sqrt, std::exp, std::log, std::log1p, std::sin, std::cos;
 
-inline Pack abs(const Pack &x)
+BERGAMO_INLINE Pack abs(const Pack &x)
 {
   return std::experimental::abs(x);
 }
-inline Pack sqrt(const Pack &x)
+BERGAMO_INLINE Pack sqrt(const Pack &x)
 {
   return std::experimental::sqrt(x);
 }
-inline double max(const double a, const double b)
+BERGAMO_INLINE double max(const double a, const double b)
 {
   return a > b ? a : b;
 }
-inline double min(const double a, const double b)
+BERGAMO_INLINE double min(const double a, const double b)
 {
   return a < b ? a : b;
 }
-inline Pack max(const Pack &a, const Pack &b)
+BERGAMO_INLINE Pack max(const Pack &a, const Pack &b)
 {
   return std::experimental::max(a, b);
 }
-inline Pack min(const Pack &a, const Pack &b)
+BERGAMO_INLINE Pack min(const Pack &a, const Pack &b)
 {
   return std::experimental::min(a, b);
 }
 
 // SLEEF, at most 1.0 ulp (Shibata & Petrogalli 2020).
 #if defined(__AVX512F__)
-inline Pack exp(const Pack &x)
+BERGAMO_INLINE Pack exp(const Pack &x)
 {
   return Pack(Sleef_expd8_u10avx512f(static_cast<__m512d>(x)));
 }
-inline Pack log(const Pack &x)
+BERGAMO_INLINE Pack log(const Pack &x)
 {
   return Pack(Sleef_logd8_u10avx512f(static_cast<__m512d>(x)));
 }
-inline Pack log1p(const Pack &x)
+BERGAMO_INLINE Pack log1p(const Pack &x)
 {
   return Pack(Sleef_log1pd8_u10avx512f(static_cast<__m512d>(x)));
 }
 #elif defined(__AVX2__)
-inline Pack exp(const Pack &x)
+BERGAMO_INLINE Pack exp(const Pack &x)
 {
   return Pack(Sleef_expd4_u10avx2(static_cast<__m256d>(x)));
 }
-inline Pack log(const Pack &x)
+BERGAMO_INLINE Pack log(const Pack &x)
 {
   return Pack(Sleef_logd4_u10avx2(static_cast<__m256d>(x)));
 }
-inline Pack log1p(const Pack &x)
+BERGAMO_INLINE Pack log1p(const Pack &x)
 {
   return Pack(Sleef_log1pd4_u10avx2(static_cast<__m256d>(x)));
 }
 #elif defined(__AVX__)
-inline Pack exp(const Pack &x)
+BERGAMO_INLINE Pack exp(const Pack &x)
 {
   return Pack(Sleef_expd4_u10avx(static_cast<__m256d>(x)));
 }
-inline Pack log(const Pack &x)
+BERGAMO_INLINE Pack log(const Pack &x)
 {
   return Pack(Sleef_logd4_u10avx(static_cast<__m256d>(x)));
 }
-inline Pack log1p(const Pack &x)
+BERGAMO_INLINE Pack log1p(const Pack &x)
 {
   return Pack(Sleef_log1pd4_u10avx(static_cast<__m256d>(x)));
 }
 #else // SSE2
-inline Pack exp(const Pack &x)
+BERGAMO_INLINE Pack exp(const Pack &x)
 {
   return Pack(Sleef_expd2_u10sse2(static_cast<__m128d>(x)));
 }
-inline Pack log(const Pack &x)
+BERGAMO_INLINE Pack log(const Pack &x)
 {
   return Pack(Sleef_logd2_u10sse2(static_cast<__m128d>(x)));
 }
-inline Pack log1p(const Pack &x)
+BERGAMO_INLINE Pack log1p(const Pack &x)
 {
   return Pack(Sleef_log1pd2_u10sse2(static_cast<__m128d>(x)));
 }
 #endif
 
 template <class Real>
-Real clamp(const Real &x, const Real &low, const Real &high)
+BERGAMO_INLINE Real clamp(const Real &x, const Real &low, const Real &high)
 {
   return min(max(x, low), high);
 }
 
 /// A pack made lane by lane: value(lane). For double one call, with lane 0.
 template <class Real, class Value>
-Real generate(Value &&value)
+BERGAMO_INLINE Real generate(Value &&value)
 {
   if constexpr (std::is_same_v<Real, double>)
     return value(0);
@@ -159,43 +162,43 @@ Real generate(Value &&value)
 }
 
 template <class Real, class Value>
-Vector3<Real> generate_vector(Value &&value)
+BERGAMO_INLINE Vector3<Real> generate_vector(Value &&value)
 {
   return {generate<Real>([&](const int lane) { return value(lane)[0]; }),
           generate<Real>([&](const int lane) { return value(lane)[1]; }),
           generate<Real>([&](const int lane) { return value(lane)[2]; })};
 }
 
-inline double lane(const double x, int)
+BERGAMO_INLINE double lane(const double x, int)
 {
   return x;
 }
-inline double lane(const Pack &x, const int k)
+BERGAMO_INLINE double lane(const Pack &x, const int k)
 {
   return x[static_cast<std::size_t>(k)];
 }
-inline bool lane(const bool x, int)
+BERGAMO_INLINE bool lane(const bool x, int)
 {
   return x;
 }
-inline bool lane(const Pack::mask_type &x, const int k)
+BERGAMO_INLINE bool lane(const Pack::mask_type &x, const int k)
 {
   return x[static_cast<std::size_t>(k)];
 }
 template <class Real>
-Vec3 lane(const Vector3<Real> &x, const int k)
+BERGAMO_INLINE Vec3 lane(const Vector3<Real> &x, const int k)
 {
   return {lane(x[0], k), lane(x[1], k), lane(x[2], k)};
 }
 
 /// A function of one double applied to every lane.
 template <class Function>
-double map(const double x, Function &&f)
+BERGAMO_INLINE double map(const double x, Function &&f)
 {
   return f(x);
 }
 template <class Function>
-Pack map(const Pack &x, Function &&f)
+BERGAMO_INLINE Pack map(const Pack &x, Function &&f)
 {
   return Pack([&](auto lane) { return f(x[lane]); });
 }

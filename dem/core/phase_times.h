@@ -29,6 +29,9 @@ public:
     last = now;
   }
 
+  /// Leaves out the time since the last lap.
+  void restart() { last = Clock::now(); }
+
 private:
   using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();

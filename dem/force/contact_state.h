@@ -26,7 +26,7 @@ struct ContactState
 
   EllipticStiffness<Real> tangential_stiffness() const
   {
-    return {stiffness.tangential_major, stiffness.tangential_minor, major_axis, normal.cross(major_axis)};
+    return {stiffness.tangential_major, stiffness.tangential_minor, normal, major_axis};
   }
 
   /// A contact about to begin: no force, no overlap yet.

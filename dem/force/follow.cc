@@ -21,27 +21,10 @@ math::Mask<Pack> follow_block(ContactStore<ContactState> &store, const std::size
 {
   ContactState<Pack> &state = store.blocks[block];
   const PairMotion<Pack> motion = motion_of(store, block, particles, time_step);
-  ContactState<Pack> next = state;
-  const Vector3<Pack> displacement = motion.displacement(state.point);
-  next.overlap = state.overlap - state.normal.dot(displacement);
-  next.budget = state.budget - displacement.norm() - state.radius * motion.rotation();
-  next.spin = state.spin + motion.turn_about(state.normal);
-  const auto is_due = next.budget < 0. || next.overlap <= 0.;
-  next.overlap = math::select(is_due, state.overlap, next.overlap);
-
-  Losses<Pack> lost;
-  const Vector3<Pack> force = advance_contact(next, law, state.overlap, displacement, time_step, lost);
-  losses.friction += math::select(is_due, Pack(0.), lost.friction);
-  losses.viscous += math::select(is_due, Pack(0.), lost.viscous);
-  store_resultants<Pack>(force, state.point, motion.half_line,
+  const Followed<Pack> followed = follow(state, motion, law, losses);
+  store_resultants<Pack>(followed.force, state.point, motion.half_line,
                          [&](const int lane) { return &store.resultant[block * pack_width + lane]; });
-
-  state.overlap = next.overlap;
-  state.budget = math::select(is_due, state.budget, next.budget);
-  state.spin = math::select(is_due, state.spin, next.spin);
-  state.forces.normal = math::select(is_due, state.forces.normal, next.forces.normal);
-  state.forces.tangential = math::select<Pack>(is_due, state.forces.tangential, next.forces.tangential);
-  return is_due;
+  return followed.is_due;
 }
 
 math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, const std::size_t block,

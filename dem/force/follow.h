@@ -1,24 +1,49 @@
 #pragma once
 
-#include "dem/force/contact_parameters.h"
+#include "dem/core/parallel.h"
 #include "dem/force/contact_state.h"
 #include "dem/force/contact_store.h"
 #include "dem/force/pair_motion.h"
 
+#include <algorithm>
+
 namespace bergamo::dem
 {
 
-/// Brings one block of touching contacts to this step along the rigid motion of their grains, with the normal held.
-/// Contacts whose motion budget is used up, or that may have come apart, are left as last step left them.
-/// @param[in,out] losses with the weights [J]
-/// @return lanes to be searched anew
-math::Mask<Pack> follow_block(ContactStore<ContactState> &store, std::size_t block, const Particles &particles,
-                              const ContactLaw &law, double time_step, Losses<Pack> &losses);
+/// A contact after a step along the rigid motion of its bodies.
+template <class Real>
+struct Followed
+{
+  math::Mask<Real> is_due; ///< to be searched anew: its state is left as last step left it
+  Vector3<Real> force;     ///< on body 1 with the weight, where not due [N]
+};
 
-/// The same for contacts of spheres, whose geometry is exact at every step.
-/// @return lanes that came apart
-math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, std::size_t block, const Particles &particles,
-                              const ContactLaw &law, double time_step, Losses<Pack> &losses);
+/// Brings touching contacts to this step along the rigid motion of their bodies, with the normal held. Due are those
+/// whose motion budget is used up and those that may have come apart.
+/// @param motion of the bodies, see PairMotion; @param[in,out] losses with the weights [J]
+template <class Real, class Motion>
+Followed<Real> follow(ContactState<Real> &state, const Motion &motion, const ContactLaw &law, Losses<Real> &losses)
+{
+  ContactState<Real> next = state;
+  const Vector3<Real> displacement = motion.displacement(state.point);
+  next.overlap = state.overlap - state.normal.dot(displacement);
+  next.budget = state.budget - motion.bound(displacement, state.radius);
+  next.spin = state.spin + motion.turn_about(state.normal);
+  const math::Mask<Real> is_due = next.budget < Real(0.) || next.overlap <= Real(0.);
+  next.overlap = math::select(is_due, state.overlap, next.overlap);
+
+  Losses<Real> lost;
+  const Vector3<Real> force = advance_contact(next, law, state.overlap, displacement, motion.time_step, lost);
+  losses.friction += math::select(is_due, Real(0.), lost.friction);
+  losses.viscous += math::select(is_due, Real(0.), lost.viscous);
+
+  state.overlap = next.overlap;
+  state.budget = math::select(is_due, state.budget, next.budget);
+  state.spin = math::select(is_due, state.spin, next.spin);
+  state.forces.normal = math::select(is_due, state.forces.normal, next.forces.normal);
+  state.forces.tangential = math::select<Real>(is_due, state.forces.tangential, next.forces.tangential);
+  return {is_due, force};
+}
 
 /// Geometry of spheres in contact; Real is double or Pack.
 template <class Real>
@@ -37,5 +62,46 @@ struct SphereGeometry
     point = normal * (Real(0.5) * (radius1 - radius2));
   }
 };
+
+/// Follows one block of contacts and writes their resultants. @return lanes to be searched anew
+math::Mask<Pack> follow_block(ContactStore<ContactState> &store, std::size_t block, const Particles &particles,
+                              const ContactLaw &law, double time_step, Losses<Pack> &losses);
+
+/// The same for contacts of spheres, whose geometry is exact at every step. @return lanes that came apart
+math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, std::size_t block, const Particles &particles,
+                              const ContactLaw &law, double time_step, Losses<Pack> &losses);
+
+/// Calls follow(block, losses) for every block of a store, which returns a mask of lanes.
+/// @param[in,out] losses their sum, by chunks of blocks whatever the number of threads [J]
+/// @return slots of the lanes masked, in order
+template <class Store, class Follow>
+Collected<std::int32_t> follow_all(const Store &store, ContactLosses &losses, Follow &&follow)
+{
+  constexpr std::size_t blocks_per_chunk = 16;
+  Collected<std::int32_t> masked;
+  const std::size_t n_chunks = (store.n_blocks() + blocks_per_chunk - 1) / blocks_per_chunk;
+  std::vector<ContactLosses> chunk_losses(n_chunks);
+  parallel_ranges(n_chunks, 1,
+                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t chunk = begin; chunk < end; ++chunk)
+                    {
+                      Losses<Pack> lost;
+                      const std::size_t last = std::min((chunk + 1) * blocks_per_chunk, store.n_blocks());
+                      for (std::size_t block = chunk * blocks_per_chunk; block < last; ++block)
+                      {
+                        const math::Mask<Pack> mask = follow(block, lost);
+                        if (math::any(mask))
+                          for (int lane = 0; lane < pack_width; ++lane)
+                            if (math::lane(mask, lane))
+                              masked.of(thread).push_back(static_cast<std::int32_t>(block * pack_width + lane));
+                      }
+                      chunk_losses[chunk] += lost;
+                    }
+                  });
+  for (const ContactLosses &lost : chunk_losses)
+    losses += lost;
+  return masked;
+}
 
 } // namespace bergamo::dem

@@ -15,8 +15,7 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t group_size = 64;       // pairs that screening leaves alone together
-constexpr std::size_t blocks_per_chunk = 16; // whose losses are summed together, whatever the threads
+constexpr std::size_t group_size = 64; // pairs that screening leaves alone together
 
 /// A pair whose contact began or ended in this step.
 struct NewContact
@@ -91,35 +90,6 @@ NewSphereContact begin_spheres(const Particles &p, const std::int32_t pair, cons
   return contact;
 }
 
-/// Follows all blocks of a store; slots that are due come out in order.
-template <template <class> class State>
-void follow_all(ContactStore<State> &store, const Particles &particles, const ContactLaw &law, const double time_step,
-                Collected<std::int32_t> &due, ContactLosses &losses)
-{
-  const std::size_t n_chunks = (store.n_blocks() + blocks_per_chunk - 1) / blocks_per_chunk;
-  std::vector<ContactLosses> chunk_losses(n_chunks);
-  parallel_ranges(n_chunks, 1,
-                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
-                  {
-                    for (std::size_t chunk = begin; chunk < end; ++chunk)
-                    {
-                      Losses<Pack> lost;
-                      const std::size_t last = std::min((chunk + 1) * blocks_per_chunk, store.n_blocks());
-                      for (std::size_t block = chunk * blocks_per_chunk; block < last; ++block)
-                      {
-                        const auto is_due = follow_block(store, block, particles, law, time_step, lost);
-                        if (math::any(is_due))
-                          for (int lane = 0; lane < pack_width; ++lane)
-                            if (math::lane(is_due, lane))
-                              due.of(thread).push_back(static_cast<std::int32_t>(block * pack_width + lane));
-                      }
-                      chunk_losses[chunk] += lost;
-                    }
-                  });
-  for (const ContactLosses &lost : chunk_losses)
-    losses += lost;
-}
-
 /// Moves contacts to slots in the order of their pairs.
 template <template <class> class State>
 void compact(ContactStore<State> &store, std::vector<std::int32_t> &slot_of_pair)
@@ -145,9 +115,12 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
   Stopwatch watch;
 
   // 1. Touching contacts.
-  Collected<std::int32_t> due, ended_spheres;
-  follow_all(grains, p, law, time_step, due, losses);
-  follow_all(spheres, p, law, time_step, ended_spheres, losses);
+  const auto due = follow_all(grains, losses,
+                              [&](const std::size_t block, Losses<Pack> &lost)
+                              { return follow_block(grains, block, p, law, time_step, lost); });
+  const auto ended_spheres = follow_all(spheres, losses,
+                                        [&](const std::size_t block, Losses<Pack> &lost)
+                                        { return follow_block(spheres, block, p, law, time_step, lost); });
   watch.lap(times.contacts);
 
   // 2. Pairs apart.
@@ -338,17 +311,11 @@ void PairContacts::add_resultants(const std::int32_t i, Vec3 &force, Vec3 &torqu
   for (auto k = incidence.row[i]; k < incidence.row[i + 1]; ++k)
   {
     const std::int32_t entry = incidence.entries[k];
+    // Without branches: which side of a contact a grain is on cannot be predicted.
+    const int side = entry & 1;
     const Resultant &r = (entry & 2 ? spheres.resultant : grains.resultant)[entry >> 2];
-    if (entry & 1)
-    {
-      force -= r.force;
-      torque += r.torque2;
-    }
-    else
-    {
-      force += r.force;
-      torque += r.torque1;
-    }
+    force += (1. - 2. * side) * r.force;
+    torque += r.torque(side);
   }
 }
 

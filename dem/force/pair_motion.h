@@ -4,6 +4,8 @@
 #include "dem/force/resultant.h"
 #include "dem/state/particles.h"
 
+#include <numbers>
+
 namespace bergamo::dem
 {
 
@@ -43,8 +45,14 @@ struct PairMotion
   /// Mean rotation of both bodies about a unit vector [rad].
   Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin_sum) * Real(0.5 * time_step); }
 
-  /// Bound of the sum of both rotations [rad].
-  Real rotation() const { return math::sqrt(spin_sum.squaredNorm() + spin_difference.squaredNorm()) * Real(time_step); }
+  /// Bound of the relative motion at a contact with the normal held [m]: the displacement plus both rotations, each
+  /// over the given radius; a + b <= sqrt(2 (a^2 + b^2)) saves a root.
+  Real bound(const Vector3<Real> &displacement, const Real &radius) const
+  {
+    const Real arm = radius * Real(time_step);
+    const Real turns = spin_sum.squaredNorm() + spin_difference.squaredNorm(); // twice the sum of both squares
+    return math::sqrt(displacement.squaredNorm() + arm * arm * turns) * Real(std::numbers::sqrt2);
+  }
 };
 
 /// Writes what contacts give to their bodies. @param target target(lane): Resultant & or nothing to write (nullptr)

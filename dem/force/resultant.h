@@ -13,6 +13,9 @@ struct Resultant
   Vec3 torque1 = Vec3::Zero(); ///< [N m]
   Vec3 force = Vec3::Zero();   ///< [N]
   Vec3 torque2 = Vec3::Zero(); ///< [N m]
+
+  /// @param side 0 for body 1, 1 for body 2
+  const Vec3 &torque(const int side) const { return side ? torque2 : torque1; }
 };
 
 } // namespace bergamo::dem

@@ -2,6 +2,7 @@
 
 #include "dem/contact/common_normal.h"
 #include "dem/contact/newton_search.h"
+#include "dem/core/rotation_matrix.h"
 
 namespace bergamo::dem
 {
@@ -25,18 +26,7 @@ Pose<Real> gather_pose(const Particles &p, const Index &index)
              y = load([&](const std::int32_t i) { return p.orientation[i].y(); }),
              z = load([&](const std::int32_t i) { return p.orientation[i].z(); }),
              w = load([&](const std::int32_t i) { return p.orientation[i].w(); });
-  const Real two(2.), one(1.);
-  Matrix3<Real> r;
-  r(0, 0) = one - two * (y * y + z * z);
-  r(0, 1) = two * (x * y - w * z);
-  r(0, 2) = two * (x * z + w * y);
-  r(1, 0) = two * (x * y + w * z);
-  r(1, 1) = one - two * (x * x + z * z);
-  r(1, 2) = two * (y * z - w * x);
-  r(2, 0) = two * (x * z - w * y);
-  r(2, 1) = two * (y * z + w * x);
-  r(2, 2) = one - two * (x * x + y * y);
-  return {shape, r,
+  return {shape, rotation_matrix(x, y, z, w),
           math::generate_vector<Real>([&](const int lane) -> const Vec3 & { return p.position[index(lane)]; })};
 }
 

@@ -1,7 +1,7 @@
 #include "dem/force/wall_contacts.h"
 
 #include "dem/contact/geometry.h"
-#include "dem/core/parallel.h"
+#include "dem/force/follow.h"
 #include "dem/neighbour/cell_grid.h"
 
 #include <algorithm>
@@ -16,59 +16,68 @@ namespace
 
 constexpr double no_rest = -std::numeric_limits<double>::infinity();
 
-/// Rigid motion of a grain against a wall since the last step.
+/// Rigid motion of a grain against a wall since the last step, as PairMotion.
+template <class Real>
 struct WallMotion
 {
-  Vec3 velocity, spin; ///< of the wall minus the grain's; the grain's
+  Vector3<Real> velocity; ///< of the wall minus the grain's [m/s]
+  Vector3<Real> spin;     ///< of the grain [1/s]
   double time_step;
 
-  Vec3 displacement(const Vec3 &point) const { return time_step * (velocity - spin.cross(point)); }
+  /// @param point contact point minus the grain's centre [m]
+  Vector3<Real> displacement(const Vector3<Real> &point) const
+  {
+    return (velocity - spin.cross(point)) * Real(time_step);
+  }
+  Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin) * Real(0.5 * time_step); }
+  Real bound(const Vector3<Real> &displacement, const Real &radius) const
+  {
+    return displacement.norm() + radius * spin.norm() * Real(time_step);
+  }
 };
 
-/// A plane needs no search: its normal is the contact normal. Brings a grain that touches the plane to this step.
-/// @return overlap; where it is not positive the state stays [m]
-double locate(const Particles &p, const std::int32_t i, const PlaneWall &wall, const WallMotion &motion,
-              ContactState<double> &s, const ContactLaw &law, const ContactParameters &parameters, Vec3 &force,
-              ContactLosses &losses)
+WallMotion<double> motion_of(const Particles &p, const std::int32_t i, const PlaneWall &wall, const double time_step)
+{
+  return {wall.velocity - p.velocity[i], p.angular_velocity[i], time_step};
+}
+
+/// Outcome of looking where a grain stands to a plane.
+struct Located
+{
+  std::int32_t candidate;
+  double overlap;             ///< [m]
+  ContactState<double> state; ///< as last step left it; this step's where the overlap is positive
+  Resultant resultant;
+};
+
+/// A plane needs no search: its normal is the contact normal.
+/// @param[in,out] l with the state of last step, or ContactState::begin()
+void locate(const Particles &p, const std::int32_t i, const PlaneWall &wall, const ContactLaw &law,
+            const ContactParameters &parameters, const double time_step, Located &l, ContactLosses &losses)
 {
   const Vec3 normal = -wall.normal;
   const BodyPose pose = make_pose(p.shape[i], p.position[i], p.orientation[i]);
   const TangentFrame frame = tangent_frame(normal);
   const PlacedSupport<double> g = support(pose, normal, frame);
-  const double overlap = g.height - wall.normal.dot(p.position[i] - wall.point);
-  if (!(overlap > 0.))
-    return overlap;
+  l.overlap = g.height - wall.normal.dot(p.position[i] - wall.point);
+  if (!(l.overlap > 0.))
+    return;
 
+  ContactState<double> &s = l.state;
+  const WallMotion<double> motion = motion_of(p, i, wall, time_step);
   const double old_overlap = s.overlap;
-  s.spin += 0.5 * motion.time_step * motion.spin.dot(s.normal);
+  s.spin += motion.turn_about(s.normal);
   const ContactState<double> before = s;
   const CurvatureBounds<double> bounds = curvature_bounds(pose.shape, parameters.curvature_bound);
-  take_geometry(s, normal, overlap, relative_curvature(frame, g.radii, bounds), law.elastic);
+  take_geometry(s, normal, l.overlap, relative_curvature(frame, g.radii, bounds), law.elastic);
   s.radius = p.bounding_radius[i];
-  s.budget = motion_budget(parameters, s.radius, overlap, g.radii.norm());
-  s.point = g.arm - 0.5 * overlap * normal;
+  s.budget = motion_budget(parameters, s.radius, l.overlap, g.radii.norm());
+  s.point = g.arm - 0.5 * l.overlap * normal;
   s.weight = p.weight[i];
   s.reduced_mass = p.mass[i]; // the wall is infinitely heavy
   losses.curvature += curvature_work(before, s, old_overlap);
-  force = advance_contact(s, law, old_overlap, motion.displacement(s.point), motion.time_step, losses);
-  return overlap;
-}
-
-/// Follows a touching contact along the motion. @return false if it must be located anew; then the state stays
-bool follow(ContactState<double> &s, const WallMotion &motion, const ContactLaw &law, Vec3 &force,
-            ContactLosses &losses)
-{
-  const Vec3 displacement = motion.displacement(s.point);
-  const double overlap = s.overlap - s.normal.dot(displacement);
-  const double budget = s.budget - displacement.norm() - motion.time_step * s.radius * motion.spin.norm();
-  if (budget < 0. || overlap <= 0.)
-    return false;
-  const double old_overlap = s.overlap;
-  s.overlap = overlap;
-  s.budget = budget;
-  s.spin += 0.5 * motion.time_step * motion.spin.dot(s.normal);
-  force = advance_contact(s, law, old_overlap, displacement, motion.time_step, losses);
-  return true;
+  const Vec3 force = advance_contact(s, law, old_overlap, motion.displacement(s.point), time_step, losses);
+  l.resultant = {s.point.cross(force), force, Vec3::Zero()};
 }
 
 } // namespace
@@ -90,21 +99,26 @@ void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall
       const double distance = walls[w].normal.dot(particles.position[i] - walls[w].point);
       if (distance >= particles.bounding_radius[i] + range)
         continue;
-      fresh.particle.push_back(static_cast<std::int32_t>(i));
-      fresh.wall.push_back(static_cast<std::int32_t>(w));
-      const auto old = known.find({static_cast<std::int32_t>(i), static_cast<std::int32_t>(w)});
-      fresh.state.push_back(old == known.end() ? ContactState<double>::begin() : state[old->second]);
-      fresh.rest_until.push_back(old == known.end() ? no_rest : rest_until[old->second]);
-      if (old != known.end())
-        known.erase(old);
+      const auto grain = static_cast<std::int32_t>(i), plane = static_cast<std::int32_t>(w);
+      const auto candidate = static_cast<std::int32_t>(fresh.size());
+      fresh.particle.push_back(grain);
+      fresh.wall.push_back(plane);
+      fresh.slot.push_back(apart);
+      fresh.rest_until.push_back(no_rest);
+      const auto old = known.find({grain, plane});
+      if (old == known.end())
+        continue;
+      fresh.rest_until.back() = rest_until[old->second];
+      if (is_touching(old->second))
+        fresh.slot.back() =
+            fresh.touching.add(candidate, grain, plane, state(old->second), touching.resultant[slot[old->second]]);
+      known.erase(old);
     }
     fresh.row[i + 1] = static_cast<std::int32_t>(fresh.wall.size());
   }
   for (const auto &[key, k] : known)
-  {
-    fresh.losses += release(state[k]);
-  }
-  fresh.resultant.assign(fresh.size(), {});
+    if (is_touching(k))
+      fresh.losses += release(state(k));
   *this = std::move(fresh);
 }
 
@@ -120,10 +134,7 @@ void WallContacts::remove_wall(const std::int32_t index)
   for (std::size_t k = 0; k < size(); ++k)
   {
     if (wall[k] == index)
-    {
-      losses += release(state[k]);
       wall[k] = -1; // no wall has this number: the next renewal drops the contact
-    }
     else if (wall[k] > index)
       --wall[k];
   }
@@ -132,75 +143,106 @@ void WallContacts::remove_wall(const std::int32_t index)
 void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, const ContactLaw &law,
                            const ContactParameters &parameters, const double time_step)
 {
-  constexpr std::size_t chunk_size = 64; // contacts whose losses are summed together, whatever the threads
-  struct Chunk
-  {
-    ContactLosses losses;
-    std::int64_t n_searches = 0;
-  };
-  std::vector<Chunk> chunks((size() + chunk_size - 1) / chunk_size);
-  const auto step = [&](const std::size_t k, Chunk &chunk)
-  {
-    const std::int32_t i = particle[k];
-    const PlaneWall &plane = walls[wall[k]];
-    const bool was_touching = is_touching(k);
-    if (!was_touching && p.motion[i] + plane.motion < rest_until[k])
-      return;
-
-    ContactState<double> &s = state[k];
-    const WallMotion motion{plane.velocity - p.velocity[i], p.angular_velocity[i], time_step};
-    Vec3 force = Vec3::Zero();
-    if (!was_touching || !follow(s, motion, law, force, chunk.losses))
-    {
-      ++chunk.n_searches;
-      const double overlap = locate(p, i, plane, motion, s, law, parameters, force, chunk.losses);
-      if (!(overlap > 0.))
+  const auto due = follow_all(
+      touching, losses,
+      [&](const std::size_t block, Losses<Pack> &lost)
       {
-        if (was_touching)
-          chunk.losses += separate(s, s.normal, motion.displacement(s.point));
-        s = ContactState<double>::begin();
-        rest_until[k] = p.motion[i] + plane.motion - overlap;
-      }
-    }
-    resultant[k] = {s.point.cross(force), force, Vec3::Zero()};
-  };
-  parallel_ranges(chunks.size(), 1,
+        const auto grain = [&](const int lane) { return touching.first[block * pack_width + lane]; };
+        const auto plane = [&](const int lane) { return touching.second[block * pack_width + lane]; };
+        const WallMotion<Pack> motion{
+            math::generate_vector<Pack>([&](const int lane) -> const Vec3 & { return walls[plane(lane)].velocity; }) -
+                math::generate_vector<Pack>([&](const int lane) -> const Vec3 & { return p.velocity[grain(lane)]; }),
+            math::generate_vector<Pack>([&](const int lane) -> const Vec3 &
+                                        { return p.angular_velocity[grain(lane)]; }),
+            time_step};
+        ContactState<Pack> &state = touching.blocks[block];
+        const Followed<Pack> followed = follow(state, motion, law, lost);
+        const Vector3<Pack> no_line(0., 0., 0.);
+        store_resultants<Pack>(followed.force, state.point, no_line,
+                               [&](const int lane) { return &touching.resultant[block * pack_width + lane]; });
+        return followed.is_due;
+      });
+
+  std::vector<Located> located;
+  due.for_each([&](const std::int32_t s) { located.push_back({touching.pair[s], 0., touching.get(s), {}}); });
+  for (std::size_t k = 0; k < size(); ++k)
+    if (!is_touching(k) && !(p.motion[particle[k]] + walls[wall[k]].motion < rest_until[k]))
+      located.push_back({static_cast<std::int32_t>(k), 0., ContactState<double>::begin(), {}});
+
+  constexpr std::size_t chunk_size = 16; // whose losses are summed together, whatever the threads
+  std::vector<ContactLosses> chunk_losses((located.size() + chunk_size - 1) / chunk_size);
+  parallel_ranges(chunk_losses.size(), 4,
                   [&](const std::size_t, const std::size_t begin, const std::size_t end)
                   {
-                    for (std::size_t c = begin; c < end; ++c)
-                      for (std::size_t k = c * chunk_size; k < std::min((c + 1) * chunk_size, size()); ++k)
-                        step(k, chunks[c]);
+                    for (std::size_t n = begin * chunk_size; n < std::min(end * chunk_size, located.size()); ++n)
+                    {
+                      const std::int32_t k = located[n].candidate;
+                      locate(p, particle[k], walls[wall[k]], law, parameters, time_step, located[n],
+                             chunk_losses[n / chunk_size]);
+                    }
                   });
-  for (const Chunk &chunk : chunks)
+  for (const ContactLosses &lost : chunk_losses)
+    losses += lost;
+  n_searches += static_cast<std::int64_t>(located.size());
+
+  for (const Located &l : located)
   {
-    losses += chunk.losses;
-    n_searches += chunk.n_searches;
+    const std::int32_t k = l.candidate, i = particle[k];
+    if (l.overlap > 0. && is_touching(k))
+    {
+      touching.set(slot[k], l.state);
+      touching.resultant[slot[k]] = l.resultant;
+    }
+    else if (l.overlap > 0.)
+      slot[k] = touching.add(k, i, wall[k], l.state, l.resultant);
+    else
+    {
+      rest_until[k] = p.motion[i] + walls[wall[k]].motion - l.overlap;
+      if (!is_touching(k))
+        continue;
+      losses +=
+          separate(l.state, l.state.normal, motion_of(p, i, walls[wall[k]], time_step).displacement(l.state.point));
+      touching.remove(slot[k]);
+      slot[k] = apart;
+    }
   }
 
   std::vector<Vec3> old_force;
   for (PlaneWall &w : walls)
     old_force.push_back(std::exchange(w.force, Vec3::Zero()));
   for (std::size_t k = 0; k < size(); ++k)
-    walls[wall[k]].force -= resultant[k].force;
+    if (is_touching(k))
+      walls[wall[k]].force -= touching.resultant[slot[k]].force;
   for (std::size_t w = 0; w < walls.size(); ++w)
     walls[w].work -= 0.5 * time_step * (old_force[w] + walls[w].force).dot(walls[w].velocity);
 }
 
+void WallContacts::add_resultants(const std::int32_t i, Vec3 &force, Vec3 &torque) const
+{
+  for (auto k = row[i]; k < row[i + 1]; ++k)
+    if (is_touching(k))
+    {
+      force += touching.resultant[slot[k]].force;
+      torque += touching.resultant[slot[k]].torque1;
+    }
+}
+
 void WallContacts::refresh()
 {
-  for (ContactState<double> &s : state)
-    s.budget = -1.;
+  for (ContactState<Pack> &block : touching.blocks)
+    block.budget = math::select(block.weight > 0., Pack(-1.), block.budget);
 }
 
 ContactEnergy WallContacts::total_energy() const
 {
   ContactEnergy sum;
-  for (const ContactState<double> &s : state)
-  {
-    const ContactEnergy e = stored_energy(s);
-    sum.normal += e.normal;
-    sum.tangential += e.tangential;
-  }
+  for (std::size_t k = 0; k < size(); ++k)
+    if (is_touching(k))
+    {
+      const ContactEnergy e = stored_energy(state(k));
+      sum.normal += e.normal;
+      sum.tangential += e.tangential;
+    }
   return sum;
 }
 

@@ -2,7 +2,7 @@
 
 #include "dem/force/contact_parameters.h"
 #include "dem/force/contact_state.h"
-#include "dem/force/resultant.h"
+#include "dem/force/contact_store.h"
 #include "dem/state/particles.h"
 #include "dem/state/wall.h"
 
@@ -12,20 +12,25 @@
 namespace bergamo::dem
 {
 
-/// Contacts of grains with plane walls: candidates sorted by particle and then wall, each with its history.
-/// Body 1 is the grain, body 2 the wall: the contact normal is minus the wall's normal.
+/// Contacts of grains with plane walls: candidates sorted by particle and then wall, the touching ones with their
+/// history in blocks of packs, as in PairContacts. Body 1 is the grain, body 2 the wall: the contact normal is minus
+/// the wall's normal.
 struct WallContacts
 {
   std::vector<std::int32_t> row; ///< candidates of particle i: row[i] .. row[i + 1]
   std::vector<std::int32_t> particle, wall;
-  std::vector<ContactState<double>> state; ///< overlap > 0 where touching
-  std::vector<double> rest_until; ///< of contacts apart, as in PairContacts, against particle.motion + wall.motion [m]
-  std::vector<Resultant> resultant;
-  ContactLosses losses; ///< since the start [J]
+  std::vector<std::int32_t> slot; ///< in `touching`, or `apart`
+  std::vector<double>
+      rest_until; ///< of candidates apart, as in PairContacts, against particle.motion + wall.motion [m]
+  ContactStore<ContactState> touching; ///< its `pair` is the candidate, its `second` the wall
+  ContactLosses losses;                ///< since the start [J]
   std::int64_t n_searches = 0;
 
+  static constexpr std::int32_t apart = -1;
+
   std::size_t size() const { return wall.size(); }
-  bool is_touching(const std::size_t k) const { return state[k].overlap > 0.; }
+  bool is_touching(const std::size_t k) const { return slot[k] != apart; }
+  ContactState<double> state(const std::size_t k) const { return touching.get(slot[k]); }
 
   /// Lists the grains nearer to a wall than their bounding radius plus range [m]; history stays with its contact.
   void renew(const Particles &particles, const std::vector<PlaneWall> &walls, double range);
@@ -39,6 +44,9 @@ struct WallContacts
   /// Brings every contact to this step; adds the grains' forces to the walls, in a fixed order.
   void compute(const Particles &particles, std::vector<PlaneWall> &walls, const ContactLaw &law,
                const ContactParameters &parameters, double time_step);
+
+  /// Adds the wall forces of grain i [N, N m], in a fixed order.
+  void add_resultants(std::int32_t i, Vec3 &force, Vec3 &torque) const;
 
   /// Has every contact searched anew at the next step.
   void refresh();

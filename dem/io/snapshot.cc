@@ -90,9 +90,8 @@ void visit_arrays(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/pairs/group_rest_until", s.pairs.group_rest_until);
   visit("dem/pairs/grains/resultant", s.pairs.grains.resultant);
   visit("dem/pairs/spheres/resultant", s.pairs.spheres.resultant);
-  visit("dem/wall_contacts/state", s.wall_contacts.state);
   visit("dem/wall_contacts/rest_until", s.wall_contacts.rest_until);
-  visit("dem/wall_contacts/resultant", s.wall_contacts.resultant);
+  visit("dem/wall_contacts/resultant", s.wall_contacts.touching.resultant);
   visit("dem/hidden/position_when_built", h.position_when_built);
   visit("dem/hidden/wall_motion_when_built", h.wall_motion_when_built);
   visit("dem/hidden/external_work", h.external_work);
@@ -119,6 +118,11 @@ void visit_indices(Simulation &s, Visit &&visit)
   visit("dem/wall_contacts/row", s.wall_contacts.row);
   visit("dem/wall_contacts/particle", s.wall_contacts.particle);
   visit("dem/wall_contacts/wall", s.wall_contacts.wall);
+  visit("dem/wall_contacts/slot", s.wall_contacts.slot);
+  visit("dem/wall_contacts/touching/pair", s.wall_contacts.touching.pair);
+  visit("dem/wall_contacts/touching/first", s.wall_contacts.touching.first);
+  visit("dem/wall_contacts/touching/second", s.wall_contacts.touching.second);
+  visit("dem/wall_contacts/touching/free", s.wall_contacts.touching.free);
   visit("dem/index_of_id", s.index_of_id);
 }
 
@@ -135,7 +139,7 @@ void visit_scalars(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/wall_contacts/friction_loss", s.wall_contacts.losses.friction);
   visit("dem/wall_contacts/viscous_loss", s.wall_contacts.losses.viscous);
   visit("dem/hidden/verlet_distance", h.verlet_distance);
-  visit("dem/hidden/largest_square_motion", h.largest_square_motion);
+  visit("dem/hidden/look_at_motion", h.look_at_motion);
   visit("dem/hidden/start_potential", h.start_potential);
   visit("dem/hidden/removed_wall_work", h.removed_wall_work);
   visit("dem/n_steps", s.n_steps);
@@ -158,6 +162,7 @@ void write_simulation(ArchiveWriter &archive, const Simulation &s)
   archive.write("dem/pairs/separating_direction", as_doubles(as_vectors(s.pairs.separating_direction)));
   write_states(archive, "dem/pairs/grains/state", s.pairs.grains);
   write_states(archive, "dem/pairs/spheres/state", s.pairs.spheres);
+  write_states(archive, "dem/wall_contacts/touching/state", s.wall_contacts.touching);
 }
 
 std::unique_ptr<Simulation> read_simulation(const ArchiveReader &archive, const SimulationParameters &parameters)
@@ -185,6 +190,7 @@ std::unique_ptr<Simulation> read_simulation(const ArchiveReader &archive, const 
     s.pairs.separating_direction.push_back(d.cast<float>());
   read_states(archive, "dem/pairs/grains/state", s.pairs.grains);
   read_states(archive, "dem/pairs/spheres/state", s.pairs.spheres);
+  read_states(archive, "dem/wall_contacts/touching/state", s.wall_contacts.touching);
   s.restore(std::move(hidden));
   return simulation;
 }

@@ -11,17 +11,26 @@ struct EllipticStiffness
 {
   Real major, minor;
   Vector3<Real> major_axis, minor_axis; ///< unit, tangential
+  Real major_compliance, minor_compliance;
+
+  EllipticStiffness(const Real &major, const Real &minor, const Vector3<Real> &normal, const Vector3<Real> &major_axis)
+      : major(major), minor(minor), major_axis(major_axis), minor_axis(normal.cross(major_axis))
+  {
+    const Real inverse = Real(1.) / (major * minor); // one division for two
+    major_compliance = inverse * minor;
+    minor_compliance = inverse * major;
+  }
 
   Vector3<Real> increment(const Vector3<Real> &displacement) const
   {
     return major_axis * (major * major_axis.dot(displacement)) + minor_axis * (minor * minor_axis.dot(displacement));
   }
 
-  /// Energy stored in the spring by a force, for a stiffness of one sqrt(overlap): f.C.f / 2.
+  /// Energy stored in the spring by a force, for an overlap of one: f.C.f / 2.
   Real energy(const Vector3<Real> &force) const
   {
     const Real f1 = major_axis.dot(force), f2 = minor_axis.dot(force);
-    return Real(0.5) * (f1 * f1 / major + f2 * f2 / minor);
+    return Real(0.5) * (f1 * f1 * major_compliance + f2 * f2 * minor_compliance);
   }
 };
 
@@ -29,10 +38,12 @@ struct EllipticStiffness
 template <class Real>
 struct RoundStiffness
 {
-  Real stiffness;
+  Real stiffness, compliance;
+
+  explicit RoundStiffness(const Real &stiffness) : stiffness(stiffness), compliance(Real(1.) / stiffness) {}
 
   Vector3<Real> increment(const Vector3<Real> &displacement) const { return displacement * stiffness; }
-  Real energy(const Vector3<Real> &force) const { return Real(0.5) * force.squaredNorm() / stiffness; }
+  Real energy(const Vector3<Real> &force) const { return Real(0.5) * force.squaredNorm() * compliance; }
 };
 
 /// Tangential force after a step and the energy that the step lost [N, J].
@@ -46,10 +57,9 @@ struct TangentialStep
 /// Tangential force of this step, Wellmann (3.25, 3.26). The loss follows from the trapezoidal rule and the energies
 /// stored.
 /// @param stiffness over sqrt(overlap); @param root, old_root square root of this and the last overlap, root > 0
-/// @param old_force last step's force on body 1, in the present tangent plane [N]. Where the contact shrinks, its
-/// spring
-///        lets go of the same share of the force (Thornton & Randall 1988); without it a closed loop of loading and
-///        shearing would make energy
+/// @param old_force last step's force on body 1, in the present tangent plane, none for a new contact [N]. Where the
+///        contact shrinks, its spring lets go of the same share of the force (Thornton & Randall 1988); without it a
+///        closed loop of loading and shearing would make energy
 /// @param displacement tangential motion of body 2 relative to body 1 since last step [m]
 /// @param limit mu |f_N| [N]
 template <class Real, class Stiffness>
@@ -58,12 +68,15 @@ TangentialStep<Real> tangential_step(const Stiffness &stiffness, const Real &roo
                                      const Real &limit)
 {
   using math::select;
-  const Real shrink = select(old_root > root, Real(root / old_root), Real(1.));
+  const Real from = select(old_root > Real(0.), old_root, root);
+  const Real inverse = Real(1.) / (root * from); // one division for two
+  const Real one_over_root = inverse * from, one_over_old_root = inverse * root;
+  const Real shrink = select(from > root, Real(root * one_over_old_root), Real(1.));
   const Vector3<Real> trial = old_force * shrink + stiffness.increment(displacement) * root;
   const Real size = trial.norm();
   const Vector3<Real> force = trial * select(size > limit, Real(limit / size), Real(1.));
-  const Real old_stored = select(old_root > Real(0.), Real(stiffness.energy(old_force) / old_root), Real(0.));
-  return {force, Real(0.5) * (old_force + force).dot(displacement) - (stiffness.energy(force) / root - old_stored)};
+  const Real work = Real(0.5) * (old_force + force).dot(displacement);
+  return {force, work - (stiffness.energy(force) * one_over_root - stiffness.energy(old_force) * one_over_old_root)};
 }
 
 /// The force that a contact had, turned with it onto a new tangent plane: magnitude kept (Wellmann 3.24 ff.).

@@ -68,7 +68,7 @@ public:
     {
       if (!walls.is_touching(k))
         continue;
-      const ContactState<double> &s = walls.state[k];
+      const ContactState<double> s = walls.state(k);
       const auto i = walls.particle[k];
       const Vec3 f = force_of(s, wall_law, x.translation[i] + x.rotation[i].cross(s.point));
       y.translation[i] += f;

@@ -52,7 +52,10 @@ std::vector<double> wall_stiffness(const Simulation &simulation)
   const WallContacts &contacts = simulation.wall_contacts;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     if (contacts.is_touching(k))
-      sum[contacts.wall[k]] += 1.5 * contacts.state[k].stiffness.normal * std::sqrt(contacts.state[k].overlap);
+    {
+      const ContactState<double> s = contacts.state(k);
+      sum[contacts.wall[k]] += 1.5 * s.stiffness.normal * std::sqrt(s.overlap);
+    }
   return sum;
 }
 
@@ -131,7 +134,7 @@ double unbalanced_force(const Simulation &simulation)
     add(pair.state);
   for (std::size_t k = 0; k < simulation.wall_contacts.size(); ++k)
     if (simulation.wall_contacts.is_touching(k))
-      add(simulation.wall_contacts.state[k]);
+      add(simulation.wall_contacts.state(k));
   if (n_loaded == 0 || n_contacts == 0 || contact == 0.)
     return 1.;
   return (resultant / n_loaded) / (contact / n_contacts);

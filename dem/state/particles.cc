@@ -18,7 +18,6 @@ void Particles::add(const Superquadric &new_shape, const double density, const V
   angular_velocity.push_back(Vec3::Zero());
   force.push_back(Vec3::Zero());
   torque.push_back(Vec3::Zero());
-  external_force.push_back(Vec3::Zero());
   weight.push_back(1.);
   motion.push_back(0.);
 }

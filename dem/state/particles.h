@@ -27,7 +27,7 @@ struct Particles
 
   std::vector<Vec3> force;          ///< resultant at this step [N]
   std::vector<Vec3> torque;         ///< about the centre [N m]
-  std::vector<Vec3> external_force; ///< added to the contact forces, e.g. by a coupling [N]
+  std::vector<Vec3> external_force; ///< added to the contact forces, e.g. by a coupling [N]; empty where there is none
 
   /// Share w in (0, 1] of this grain in the virtual work: 1 unless another model shares the grain's place.
   /// Mass, inertia and body forces count w times; a contact counts with the weight at its point.

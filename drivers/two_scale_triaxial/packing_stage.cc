@@ -47,7 +47,8 @@ double max_overlap_over_radius(const dem::Simulation &grains)
   for (const auto &[first, second, state] : grains.pairs.touching(grains.particles))
     largest = std::max(largest, state.overlap / std::min(radius[first], radius[second]));
   for (std::size_t k = 0; k < grains.wall_contacts.size(); ++k)
-    largest = std::max(largest, grains.wall_contacts.state[k].overlap / radius[grains.wall_contacts.particle[k]]);
+    if (grains.wall_contacts.is_touching(k))
+      largest = std::max(largest, grains.wall_contacts.state(k).overlap / radius[grains.wall_contacts.particle[k]]);
   return largest;
 }
 

@@ -1,0 +1,110 @@
+#include "dem/motion/leapfrog.h"
+
+#include "dem/core/parallel.h"
+#include "dem/motion/rotation.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace bergamo::dem
+{
+namespace
+{
+
+/// Grains from `begin`, as many as there are lanes; lanes beyond `end` repeat the last grain and are not stored.
+struct Lanes
+{
+  std::size_t begin, end;
+
+  std::size_t operator()(const int lane) const { return std::min(begin + lane, end - 1); }
+  int size() const { return static_cast<int>(std::min<std::size_t>(pack_width, end - begin)); }
+};
+
+Pack load(const std::vector<double> &values, const Lanes &grains)
+{
+  return math::generate<Pack>([&](const int lane) { return values[grains(lane)]; });
+}
+
+Vector3<Pack> load(const std::vector<Vec3> &values, const Lanes &grains)
+{
+  return math::generate_vector<Pack>([&](const int lane) -> const Vec3 & { return values[grains(lane)]; });
+}
+
+void store(std::vector<Vec3> &values, const Lanes &grains, const Vector3<Pack> &packed)
+{
+  for (int lane = 0; lane < grains.size(); ++lane)
+    values[grains.begin + lane] = math::lane<Pack>(packed, lane);
+}
+
+/// @return whether all states are finite; `largest` grows to the largest motion of a grain
+bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const double dt, Pack &largest)
+{
+  const Pack weight = load(p.weight, grains), kick = dt / weight;
+  const Pack acceleration = kick / load(p.mass, grains);
+  Vector3<Pack> force = load(p.force, grains);
+  if (!p.external_force.empty())
+    force += load(p.external_force, grains);
+  const Vector3<Pack> fall(dt * gravity[0], dt * gravity[1], dt * gravity[2]);
+  const Vector3<Pack> velocity = load(p.velocity, grains) + force * acceleration + fall;
+  const Vector3<Pack> position = load(p.position, grains) + velocity * Pack(dt);
+  const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * kick;
+
+  const auto number = [&](const int d)
+  { return math::generate<Pack>([&](const int lane) { return p.orientation[grains(lane)].coeffs()[d]; }); };
+  const Orientation<Pack> old{number(0), number(1), number(2), number(3)};
+  const Vector3<Pack> spin = mean_angular_velocity(old.matrix(), load(p.inertia, grains), momentum, dt);
+  const Orientation<Pack> orientation = turned(old, Vector3<Pack>(spin * Pack(dt)));
+
+  const Pack motion = dt * (velocity.norm() + spin.norm() * load(p.bounding_radius, grains));
+  largest = math::max(largest, motion);
+  store(p.velocity, grains, velocity);
+  store(p.position, grains, position);
+  store(p.angular_momentum, grains, momentum);
+  store(p.angular_velocity, grains, spin);
+  for (int lane = 0; lane < grains.size(); ++lane)
+  {
+    p.orientation[grains.begin + lane] = Quaternion(math::lane(orientation.w, lane), math::lane(orientation.x, lane),
+                                                    math::lane(orientation.y, lane), math::lane(orientation.z, lane));
+    p.motion[grains.begin + lane] += math::lane(motion, lane);
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return !math::any(!(motion + position.squaredNorm() + orientation.w < infinity));
+}
+
+} // namespace
+
+bool advance(Particles &particles, const Vec3 &gravity, const double time_step)
+{
+  struct Found
+  {
+    bool is_finite;
+    double largest_motion;
+  };
+  Collected<Found> found;
+  const std::size_t n = particles.size(), n_packs = (n + pack_width - 1) / pack_width;
+  parallel_ranges(n_packs, 8,
+                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  {
+                    bool is_finite = true;
+                    Pack largest(0.);
+                    for (std::size_t pack = begin; pack < end; ++pack)
+                      is_finite &= advance_lanes(particles, {pack * pack_width, n}, gravity, time_step, largest);
+                    double most = 0.;
+                    for (int lane = 0; lane < pack_width; ++lane)
+                      most = std::max(most, math::lane(largest, lane));
+                    found.of(thread).push_back({is_finite, most});
+                  });
+  bool is_finite = true;
+  double largest = 0.;
+  found.for_each(
+      [&](const Found &f)
+      {
+        is_finite = is_finite && f.is_finite;
+        largest = std::max(largest, f.largest_motion);
+      });
+  particles.largest_motion += largest;
+  return is_finite;
+}
+
+} // namespace bergamo::dem

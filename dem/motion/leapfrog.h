@@ -1,0 +1,14 @@
+#pragma once
+
+#include "dem/state/particles.h"
+
+namespace bergamo::dem
+{
+
+/// One leapfrog step of all grains: kick, turn and drift (Wellmann 3.32-3.44). Velocities go from the half step before
+/// to the half step after, places and orientations to the next step.
+/// @param gravity [m/s^2]; @param time_step [s]
+/// @return false if any state is not finite any more
+bool advance(Particles &particles, const Vec3 &gravity, double time_step);
+
+} // namespace bergamo::dem
