@@ -1,15 +1,11 @@
 #include "dem/force/search_contacts.h"
 
-#include "dem/contact/common_normal.h"
-#include "dem/contact/newton_search.h"
+#include "dem/contact/pair_search.h"
 
 namespace bergamo::dem
 {
 namespace
 {
-
-/// Evaluations after which the last open pairs of a pack are finished one by one.
-constexpr int max_evaluations = 12;
 
 template <class Real, class Index>
 Pose<Real> gather_pose(const Particles &p, const Index &index)
@@ -38,42 +34,6 @@ Pose<Real> gather_pose(const Particles &p, const Index &index)
   r(2, 2) = one - two * (x * x + y * y);
   return {shape, r,
           math::generate_vector<Real>([&](const int lane) -> const Vec3 & { return p.position[index(lane)]; })};
-}
-
-BodyPose pose_of(const Particles &p, const std::int32_t i)
-{
-  return make_pose(p.shape[i], p.position[i], p.orientation[i]);
-}
-
-/// One search beyond what the pack could decide.
-ContactGeometry search_alone(const Particles &p, const ContactSearch &s)
-{
-  const BodyPose body1 = pose_of(p, s.first), body2 = pose_of(p, s.second);
-  return s.guess.squaredNorm() > 0. ? update_contact(body1, body2, s.guess) : find_contact(body1, body2);
-}
-
-template <class Real>
-void set_lane(Real &pack, const int lane, const double value)
-{
-  if constexpr (std::is_same_v<Real, double>)
-    pack = value;
-  else
-    pack[static_cast<std::size_t>(lane)] = value;
-}
-
-template <class Real>
-void set_lane(Vector3<Real> &pack, const int lane, const Vec3 &value)
-{
-  for (int d = 0; d < 3; ++d)
-    set_lane(pack[d], lane, value[d]);
-}
-
-template <class Real>
-void set_lane(CurvatureRadii<Real> &pack, const int lane, const CurvatureRadii<double> &value)
-{
-  set_lane(pack.r11, lane, value.r11);
-  set_lane(pack.r22, lane, value.r22);
-  set_lane(pack.r12, lane, value.r12);
 }
 
 /// States of several searches as one of packs, and back.
@@ -125,48 +85,28 @@ void search_contacts(const std::span<ContactSearch> searches, const Particles &p
   const Vector3<Real> centre_line = body2.position - body1.position;
   const Vector3<Real> guess =
       math::generate_vector<Real>([&](const int lane) -> const Vec3 & { return search_of(lane).guess; });
-  const Real guess_square = guess.squaredNorm();
-  const auto is_known = guess_square > Real(0.);
-  const Vector3<Real> start = math::select<Real>(is_known, Vector3<Real>(guess / math::sqrt(guess_square)),
-                                                 Vector3<Real>(centre_line / centre_line.norm()));
-  NewtonSearch<Real> search(body1, body2, start);
-  search.run(max_evaluations);
-
-  Evaluation<Real> &found = search.best;
-  const auto is_doubtful = search.is_open || (!is_known && found.phi > Real(0.) && is_suspicious(search));
-  Vector3<Real> arm2 = found.arm1 + found.gap - centre_line;
-  for (int lane = 0; lane < n; ++lane)
-    if (math::lane(is_doubtful, lane))
-    {
-      const ContactGeometry alone = search_alone(p, searches[lane]);
-      set_lane(found.c, lane, alone.normal);
-      set_lane(found.phi, lane, alone.overlap);
-      set_lane(found.arm1, lane, alone.arm1);
-      set_lane(arm2, lane, alone.arm2);
-      set_lane(found.radii1, lane, alone.radii1);
-      set_lane(found.radii2, lane, alone.radii2);
-      searches[lane].is_undecided = alone.status == ContactStatus::undecided;
-    }
+  const FoundContacts<Real> found = search_pairs<Real>(body1, body2, guess, n);
   for (int lane = 0; lane < n; ++lane)
   {
-    searches[lane].is_touching = math::lane(found.phi, lane) > 0.;
-    searches[lane].guess = math::lane<Real>(found.c, lane);
-    searches[lane].gap = -math::lane(found.phi, lane);
+    searches[lane].is_undecided = found.is_undecided[lane];
+    searches[lane].is_touching = math::lane(found.overlap, lane) > 0.;
+    searches[lane].guess = math::lane<Real>(found.normal, lane);
+    searches[lane].gap = -math::lane(found.overlap, lane);
   }
-  const auto is_touching = found.phi > Real(0.);
+  const auto is_touching = found.overlap > Real(0.);
   if (!math::any(is_touching))
     return;
 
   const PairMotion<Real> motion(p, first, second, time_step);
   const RelativeCurvature<Real> curvature = relative_curvature(
-      tangent_frame(found.c), found.radii1, curvature_bounds(body1.shape, parameters.curvature_bound), found.radii2,
-      curvature_bounds(body2.shape, parameters.curvature_bound));
+      tangent_frame(found.normal), found.radii1, curvature_bounds(body1.shape, parameters.curvature_bound),
+      found.radii2, curvature_bounds(body2.shape, parameters.curvature_bound));
   ContactState<Real> s = gather_state<Real>(searches);
   const Real old_overlap = s.overlap;
   s.spin += motion.turn_about(s.normal);
   const ContactState<Real> before = s;
-  take_geometry(s, found.c, found.phi, curvature, law.elastic);
-  s.point = (found.arm1 + arm2) * Real(0.5);
+  take_geometry(s, found.normal, found.overlap, curvature, law.elastic);
+  s.point = (found.arm1 + found.arm2) * Real(0.5);
   const Real weight1 = load([&](const ContactSearch &c) { return p.weight[c.first]; });
   const Real weight2 = load([&](const ContactSearch &c) { return p.weight[c.second]; });
   s.weight = contact_weight<Real>(weight1, weight2, centre_line, s.point + centre_line * Real(0.5));
