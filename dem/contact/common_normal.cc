@@ -1,6 +1,7 @@
 #include "dem/contact/common_normal.h"
 
 #include "dem/contact/newton_search.h"
+#include "dem/contact/pose_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -12,22 +13,24 @@ namespace bergamo::dem
 namespace
 {
 
-/// @param centre_line x2 - x1 [m]
-ContactGeometry finish(NewtonSearch<double> &search, const Vec3 &centre_line)
-{
-  constexpr int max_evaluations = 250;
-  search.run(max_evaluations);
-  const Evaluation<double> &e = search.best;
-  const ContactStatus status = e.phi < 0.       ? ContactStatus::separated
-                               : search.is_open ? ContactStatus::undecided
-                                                : ContactStatus::touching;
-  return {status, e.c, e.phi, e.arm1, e.arm1 + e.gap - centre_line, e.radii1, e.radii2, search.n_evaluations};
-}
+constexpr int max_evaluations = 250;
 
-ContactGeometry minimise(const BodyPose &body1, const BodyPose &body2, const Vec3 &start)
+template <class Real>
+ContactGeometry result_of(const NewtonSearch<Real> &search, const int k)
 {
-  NewtonSearch<double> search(body1, body2, start);
-  return finish(search, body2.position - body1.position);
+  const Evaluation<Real> &e = search.best;
+  const double phi = math::lane(e.phi, k);
+  const ContactStatus status = phi < 0.                        ? ContactStatus::separated
+                               : math::lane(search.is_open, k) ? ContactStatus::undecided
+                                                               : ContactStatus::touching;
+  return {status,
+          math::lane(e.c, k),
+          phi,
+          math::lane(e.arm1, k),
+          math::lane(e.arm2, k),
+          lane(e.radii1, k),
+          lane(e.radii2, k),
+          search.n_evaluations};
 }
 
 /// Directions spread evenly over the sphere (Fibonacci lattice).
@@ -45,32 +48,47 @@ std::array<Vec3, n> spread_directions()
   return directions;
 }
 
-/// Search from many starts; the converged minimum with the smallest phi wins.
+/// Search from many starts, in packs of directions; the converged minimum with the smallest phi wins.
 ContactGeometry search_globally(const BodyPose &body1, const BodyPose &body2, const ContactGeometry &first)
 {
-  constexpr int n_directions = 128, n_starts = 8;
+  constexpr int n_directions = 128, n_starts = 16;
+  static_assert(n_starts % pack_width == 0 && n_directions % pack_width == 0);
   static const auto directions = spread_directions<n_directions>();
+  const Pose<Pack> bodies1 = in_every_lane(body1), bodies2 = in_every_lane(body2);
+  const auto pack_of = [](const auto &direction)
+  {
+    return math::generate_vector<Pack>([&](const int lane) -> const Vec3 & { return direction(lane); });
+  };
 
   std::array<std::pair<double, int>, n_directions> ranking;
-  for (int i = 0; i < n_directions; ++i)
-    ranking[i] = {Evaluation<double>(body1, body2, directions[i]).phi, i};
+  for (int i = 0; i < n_directions; i += pack_width)
+  {
+    const Vector3<Pack> c = pack_of([&](const int lane) -> const Vec3 & { return directions[i + lane]; });
+    const Pack phi = Evaluation<Pack>(bodies1, bodies2, c).phi;
+    for (int lane = 0; lane < pack_width; ++lane)
+      ranking[i + lane] = {math::lane(phi, lane), i + lane};
+  }
   std::partial_sort(ranking.begin(), ranking.begin() + n_starts, ranking.end());
 
   ContactGeometry best = first;
-  int n_evaluations = first.n_evaluations + n_directions;
-  for (int k = 0; k < n_starts; ++k)
+  best.n_evaluations += n_directions;
+  for (int k = 0; k < n_starts && best.status != ContactStatus::separated; k += pack_width)
   {
-    const ContactGeometry candidate = minimise(body1, body2, directions[ranking[k].second]);
-    n_evaluations += candidate.n_evaluations;
-    const bool first_decision = best.status == ContactStatus::undecided && candidate.status != ContactStatus::undecided;
-    const bool lower = candidate.overlap < best.overlap &&
-                       (candidate.status != ContactStatus::undecided || best.status == ContactStatus::undecided);
-    if (first_decision || lower)
-      best = candidate;
-    if (best.status == ContactStatus::separated)
-      break;
+    const Vector3<Pack> starts =
+        pack_of([&](const int lane) -> const Vec3 & { return directions[ranking[k + lane].second]; });
+    NewtonSearch<Pack> search(bodies1, bodies2, starts);
+    search.run(max_evaluations);
+    const int n_evaluations = best.n_evaluations + search.n_evaluations * pack_width;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      const ContactGeometry candidate = result_of(search, lane);
+      const bool is_open = candidate.status == ContactStatus::undecided;
+      const bool was_open = best.status == ContactStatus::undecided;
+      if ((was_open && !is_open) || (candidate.overlap < best.overlap && (!is_open || was_open)))
+        best = candidate;
+    }
+    best.n_evaluations = n_evaluations;
   }
-  best.n_evaluations = n_evaluations;
   return best;
 }
 
@@ -78,17 +96,19 @@ ContactGeometry search_globally(const BodyPose &body1, const BodyPose &body2, co
 
 ContactGeometry find_contact(const BodyPose &body1, const BodyPose &body2)
 {
-  const Vec3 centre_line = body2.position - body1.position;
-  NewtonSearch<double> search(body1, body2, centre_line.normalized());
-  const ContactGeometry result = finish(search, body2.position - body1.position);
+  NewtonSearch<double> search(body1, body2, (body2.position - body1.position).normalized());
+  search.run(max_evaluations);
+  const ContactGeometry result = result_of(search, 0);
   return result.status == ContactStatus::undecided || is_suspicious(search) ? search_globally(body1, body2, result)
                                                                             : result;
 }
 
 ContactGeometry update_contact(const BodyPose &body1, const BodyPose &body2, const Vec3 &guess)
 {
-  const ContactGeometry result = minimise(body1, body2, guess);
-  if (result.status == ContactStatus::undecided)
+  NewtonSearch<double> search(body1, body2, guess);
+  search.run(max_evaluations);
+  const ContactGeometry result = result_of(search, 0);
+  if (result.status == ContactStatus::undecided || is_saddle(search))
     return find_contact(body1, body2);
   return result;
 }

@@ -54,6 +54,12 @@ struct CurvatureRadii
   }
 };
 
+template <class Real>
+CurvatureRadii<double> lane(const CurvatureRadii<Real> &radii, const int k)
+{
+  return {math::lane(radii.r11, k), math::lane(radii.r22, k), math::lane(radii.r12, k)};
+}
+
 /// Support of a placed body in the global frame.
 template <class Real>
 struct PlacedSupport
@@ -70,7 +76,12 @@ PlacedSupport<Real> support(const Pose<Real> &body, const Vector3<Real> &normal,
   const Matrix3<Real> &r = body.rotation;
   const Vector3<Real> n = turn_back(r, normal), t1 = turn_back<Real>(r, frame.col(0)),
                       t2 = turn_back<Real>(r, frame.col(1));
-  const Support<Real> s = support(body.shape, n[0], n[1], n[2]);
+  Support<Real> s = support(body.shape, n[0], n[1], n[2]);
+  // In the middle of a flat face one radius is 1e95 and more: it would drown the other one in the tangent frame.
+  const Real flattest = Real(1e12) * s.h;
+  s.h11 = math::min(s.h11, flattest);
+  s.h22 = math::min(s.h22, flattest);
+  s.h33 = math::min(s.h33, flattest);
   const auto times_hessian = [&](const Vector3<Real> &t) -> Vector3<Real>
   {
     return {s.h11 * t[0] + s.h12 * t[1] + s.h13 * t[2], s.h12 * t[0] + s.h22 * t[1] + s.h23 * t[2],

@@ -13,6 +13,7 @@ struct Evaluation
   Real phi;           ///< [m]
   Vector3<Real> gap;  ///< p2 - p1 [m]
   Vector3<Real> arm1; ///< p1 - x1 [m]
+  Vector3<Real> arm2; ///< p2 - x2 [m]
   CurvatureRadii<Real> radii1, radii2;
   Real reach; ///< h1(c) + h2(-c): the magnitude that phi is the rounded difference of [m]
 
@@ -25,6 +26,7 @@ struct Evaluation
     phi = reach - c.dot(centre_line);
     gap = centre_line + s2.arm - s1.arm;
     arm1 = s1.arm;
+    arm2 = s2.arm;
     radii1 = s1.radii;
     radii2 = s2.radii;
   }
@@ -38,6 +40,7 @@ struct Evaluation
     phi = math::select(mask, other.phi, phi);
     gap = math::select<Real>(mask, other.gap, gap);
     arm1 = math::select<Real>(mask, other.arm1, arm1);
+    arm2 = math::select<Real>(mask, other.arm2, arm2);
     reach = math::select(mask, other.reach, reach);
     for (auto radii : {&Evaluation::radii1, &Evaluation::radii2})
       for (auto entry : {&CurvatureRadii<Real>::r11, &CurvatureRadii<Real>::r22, &CurvatureRadii<Real>::r12})
@@ -93,30 +96,33 @@ public:
   {
     while (math::any(is_open) && n_evaluations < max_evaluations)
       advance();
+    take_last_step();
   }
 
   Evaluation<Real> best; ///< the least phi found
   Real length_scale;     ///< smallest half-axis of both bodies [m]
+  Real low;              ///< smaller eigenvalue of the model's Hessian at best; negative at a saddle or maximum [m]
   Mask is_open;          ///< not decided yet: the others are either separated (phi < 0) or at a minimum
   int n_evaluations = 1; ///< of the lane that took longest
 
 private:
   static constexpr double longest_step = 0.5;     // about 30 degrees: the model says nothing beyond
   static constexpr double least_curvature = 1e-6; // of the model, over the smallest half-axis
-  static constexpr double tolerance = 1e-10;      // of the tangential gap, over the smallest half-axis
+  static constexpr double last_step = 1e-5;       // [rad]; also the tangential gap over the smallest half-axis
   static constexpr double resolution = 1e-15;     // of a unit vector
   static constexpr double growth = 1.5;           // of the longest step after a success
   static constexpr double max_widenings = 3.;
   static constexpr double wide_enough = 0.2; // tangential part over width of the gap
 
   /// Step of the Newton model on the tangent plane, shifted until the model is convex: always downhill.
-  Vector3<Real> newton_step() const
+  Vector3<Real> newton_step()
   {
     using math::abs, math::max, math::min, math::select, math::sqrt;
     const TangentFrameOf<Real> frame = tangent_frame(best.c);
     const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1);
     const Real g1 = -t1.dot(best.gap), g2 = -t2.dot(best.gap);
     const SphereHessian<Real> b(best);
+    low = b.low;
     const Real least = Real(least_curvature) * length_scale;
     const Real shift = select(b.low < least, Real(max(least, abs(b.low)) - b.low), Real(0.));
     const Real b11 = b.b11 + shift, b22 = b.b22 + shift, det = b11 * b22 - b.b12 * b.b12;
@@ -136,7 +142,9 @@ private:
     const Mask is_apart = best.phi < Real(0.);
     const Real size = tangential.norm();
     // On a flat face p moves a lot for a change of c below resolution: then c is as good as it can be.
-    const Mask at_minimum = size < Real(tolerance) * length_scale || step.norm() < Real(resolution);
+    const Real length = step.norm();
+    const Mask at_minimum =
+        (size < Real(last_step) * length_scale && length < Real(last_step)) || length < Real(resolution);
     const Mask is_wide = size < Real(-wide_enough) * best.phi || widenings >= Real(max_widenings);
     is_open = !((is_apart && is_wide) || (!is_apart && at_minimum));
   }
@@ -174,6 +182,24 @@ private:
     decide();
   }
 
+  /// The step that is left at a minimum is taken without another evaluation: the model gives phi to third order and
+  /// the points to second, 1e-15 and 1e-10 of the body.
+  void take_last_step()
+  {
+    const Mask is_at_minimum = !is_open && best.phi > Real(0.);
+    const Vector3<Real> s = math::select<Real>(is_at_minimum, step, Vector3<Real>(step * Real(0.)));
+    const TangentFrameOf<Real> frame = tangent_frame(best.c);
+    const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1);
+    const Real s1 = t1.dot(s), s2 = t2.dot(s);
+    const auto moved = [&](const CurvatureRadii<Real> &radii) -> Vector3<Real>
+    { return t1 * (radii.r11 * s1 + radii.r12 * s2) + t2 * (radii.r12 * s1 + radii.r22 * s2); };
+    best.phi -= Real(0.5) * tangential.dot(s);
+    best.arm1 += moved(best.radii1);
+    best.arm2 -= moved(best.radii2);
+    const Vector3<Real> target = best.c + s;
+    best.c = target / target.norm();
+  }
+
   Pose<Real> body1, body2;
   Vector3<Real> tangential; ///< gap at best
   Vector3<Real> step;       ///< next to be tried
@@ -181,13 +207,27 @@ private:
   Real widenings = Real(0.);
 };
 
-/// Whether the minimum found from the centre line may not be the least one: an overlap deep enough for phi to have
-/// several.
+/// Whether what was found from the centre line may not be the least minimum:
+///  * the overlap is so deep that phi may have several;
+///  * or it is not small beside the smaller radius of curvature rho = low + phi of both surfaces together: the ball of
+///    radius phi inside the Minkowski sum of the bodies touches its boundary near a ridge, and may cross that on the
+///    other side. Of 4 million random pairs with exponents in (0.3, 1.7) 53 had such a second, lower minimum, all of
+///    them with low < 6 phi; the criterion takes 0.3 % of all pairs of that kind, 1 in 10^5 with exponents in
+///    (0.7, 1.3). A saddle (low < 0), where a symmetric pair may end, is among them.
 template <class Real>
 math::Mask<Real> is_suspicious(const NewtonSearch<Real> &search)
 {
   constexpr double deep_overlap = 0.02; // over the smallest half-axis
-  return search.best.phi > Real(deep_overlap) * search.length_scale;
+  constexpr double near_ridge = 32.;    // low over phi
+  const Real &phi = search.best.phi;
+  return phi > Real(0.) && (phi > Real(deep_overlap) * search.length_scale || search.low < Real(near_ridge) * phi);
+}
+
+/// Whether a touching pair ended at a saddle of phi: only there by symmetry, and not where the contact is.
+template <class Real>
+math::Mask<Real> is_saddle(const NewtonSearch<Real> &search)
+{
+  return search.best.phi > Real(0.) && search.low < Real(0.);
 }
 
 } // namespace bergamo::dem

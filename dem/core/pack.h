@@ -63,7 +63,7 @@ BERGAMO_INLINE Vector3<Real> select(const Mask<Real> &mask, const Vector3<Real> 
   return {select(mask, yes[0], no[0]), select(mask, yes[1], no[1]), select(mask, yes[2], no[2])};
 }
 
-using std::abs, std::sqrt, std::exp, std::log, std::log1p, std::sin, std::cos;
+using std::abs, std::sqrt, std::exp, std::log, std::sin, std::cos;
 
 BERGAMO_INLINE Pack abs(const Pack &x)
 {
@@ -100,10 +100,6 @@ BERGAMO_INLINE Pack log(const Pack &x)
 {
   return Pack(Sleef_logd8_u10avx512f(static_cast<__m512d>(x)));
 }
-BERGAMO_INLINE Pack log1p(const Pack &x)
-{
-  return Pack(Sleef_log1pd8_u10avx512f(static_cast<__m512d>(x)));
-}
 #elif defined(__AVX2__)
 BERGAMO_INLINE Pack exp(const Pack &x)
 {
@@ -112,10 +108,6 @@ BERGAMO_INLINE Pack exp(const Pack &x)
 BERGAMO_INLINE Pack log(const Pack &x)
 {
   return Pack(Sleef_logd4_u10avx2(static_cast<__m256d>(x)));
-}
-BERGAMO_INLINE Pack log1p(const Pack &x)
-{
-  return Pack(Sleef_log1pd4_u10avx2(static_cast<__m256d>(x)));
 }
 #elif defined(__AVX__)
 BERGAMO_INLINE Pack exp(const Pack &x)
@@ -126,10 +118,6 @@ BERGAMO_INLINE Pack log(const Pack &x)
 {
   return Pack(Sleef_logd4_u10avx(static_cast<__m256d>(x)));
 }
-BERGAMO_INLINE Pack log1p(const Pack &x)
-{
-  return Pack(Sleef_log1pd4_u10avx(static_cast<__m256d>(x)));
-}
 #else // SSE2
 BERGAMO_INLINE Pack exp(const Pack &x)
 {
@@ -138,10 +126,6 @@ BERGAMO_INLINE Pack exp(const Pack &x)
 BERGAMO_INLINE Pack log(const Pack &x)
 {
   return Pack(Sleef_logd2_u10sse2(static_cast<__m128d>(x)));
-}
-BERGAMO_INLINE Pack log1p(const Pack &x)
-{
-  return Pack(Sleef_log1pd2_u10sse2(static_cast<__m128d>(x)));
 }
 #endif
 

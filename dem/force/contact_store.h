@@ -4,11 +4,24 @@
 #include "dem/force/resultant.h"
 
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 namespace bergamo::dem
 {
+
+/// One contact of a pack. State<Real> holds nothing but numbers of type Real.
+template <template <class> class State>
+State<double> lane_of(const State<Pack> &pack, const int lane)
+{
+  constexpr std::size_t n_fields = sizeof(State<double>) / sizeof(double);
+  static_assert(sizeof(State<Pack>) == sizeof(State<double>) * pack_width);
+  State<double> state = State<double>::idle();
+  const auto *source = reinterpret_cast<const double *>(&pack) + lane;
+  auto *target = reinterpret_cast<double *>(&state);
+  for (std::size_t f = 0; f < n_fields; ++f)
+    target[f] = source[f * pack_width];
+  return state;
+}
 
 /// Touching contacts in blocks of one pack each: lane k of block b is slot b * pack_width + k. A slot keeps its contact
 /// until that ends; then it is free for another. Only the order of memory depends on the slots, never a result.
@@ -46,23 +59,24 @@ public:
     free.push_back(slot);
   }
 
-  State<double> get(const std::int32_t slot) const
-  {
-    double numbers[n_fields];
-    const double *source = block_of(blocks, slot);
-    for (std::size_t f = 0; f < n_fields; ++f)
-      numbers[f] = source[f * pack_width];
-    State<double> state = State<double>::idle();
-    std::memcpy(static_cast<void *>(&state), numbers, sizeof(state));
-    return state;
-  }
+  State<double> get(const std::int32_t slot) const { return lane_of(blocks[slot / pack_width], slot % pack_width); }
 
   void set(const std::int32_t slot, const State<double> &state)
   {
     const auto *numbers = reinterpret_cast<const double *>(&state);
-    double *target = block_of(blocks, slot);
+    auto *target = reinterpret_cast<double *>(&blocks[slot / pack_width]) + slot % pack_width;
     for (std::size_t f = 0; f < n_fields; ++f)
       target[f * pack_width] = numbers[f];
+  }
+
+  /// Copies the contact of a slot into a lane of a pack, or back.
+  void copy_lane(const std::int32_t slot, State<Pack> &pack, const int lane) const
+  {
+    copy_numbers(blocks[slot / pack_width], slot % pack_width, pack, lane);
+  }
+  void take_lane(const std::int32_t slot, const State<Pack> &pack, const int lane)
+  {
+    copy_numbers(pack, lane, blocks[slot / pack_width], slot % pack_width);
   }
 
   /// All slots one after another, used or not, as a snapshot keeps them.
@@ -99,13 +113,13 @@ public:
 
 private:
   static constexpr std::size_t n_fields = sizeof(State<double>) / sizeof(double);
-  static_assert(sizeof(State<Pack>) == sizeof(State<double>) * pack_width);
 
-  template <class Blocks>
-  static auto block_of(Blocks &blocks, const std::int32_t slot)
+  static void copy_numbers(const State<Pack> &from, const int from_lane, State<Pack> &to, const int to_lane)
   {
-    using Number = std::conditional_t<std::is_const_v<Blocks>, const double, double>;
-    return reinterpret_cast<Number *>(&blocks[slot / pack_width]) + slot % pack_width;
+    const auto *source = reinterpret_cast<const double *>(&from) + from_lane;
+    auto *target = reinterpret_cast<double *>(&to) + to_lane;
+    for (std::size_t f = 0; f < n_fields; ++f)
+      target[f * pack_width] = source[f * pack_width];
   }
 
   void grow()

@@ -17,13 +17,7 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t group_size = 64; // pairs that screening leaves alone together
 
-/// A pair whose contact began or ended in this step.
-struct NewContact
-{
-  std::int32_t pair;
-  ContactState<double> state;
-  Resultant resultant;
-};
+/// A pair of spheres whose contact begins in this step.
 struct NewSphereContact
 {
   std::int32_t pair;
@@ -77,7 +71,7 @@ NewSphereContact begin_spheres(const Particles &p, const std::int32_t pair, cons
   s.overlap = g.overlap;
   s.normal_stiffness = stiffness.normal;
   s.tangential_stiffness = stiffness.tangential_major;
-  s.reduced_mass = p.mass[i] * p.mass[j] / (p.mass[i] + p.mass[j]);
+  s.reduced_mass = 1. / (1. / p.mass[i] + 1. / p.mass[j]);
   s.weight = sphere_weight(p, i, j);
   Losses<double> lost;
   advance_forces(law, g.normal, s.normal_stiffness, RoundStiffness<double>{s.tangential_stiffness}, s.reduced_mass,
@@ -165,59 +159,30 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
 
   // 3. Searches.
   std::vector<ContactSearch> searches;
-  std::vector<std::int32_t> searched_pair;
   due.for_each(
-      [&](const std::int32_t s)
-      {
-        const ContactState<double> state = grains.get(s);
-        searches.push_back({grains.first[s], grains.second[s], state.normal, state});
-        searched_pair.push_back(grains.pair[s]);
+      [&](const std::int32_t s) {
+        searches.push_back({grains.pair[s], grains.first[s], grains.second[s], s});
       });
   candidates.for_each(
-      [&](const std::int32_t pair)
-      {
-        searches.push_back({list.first[pair], list.second[pair], separating_direction[pair].cast<double>(),
-                            ContactState<double>::begin()});
-        searched_pair.push_back(pair);
+      [&](const std::int32_t pair) {
+        searches.push_back({pair, list.first[pair], list.second[pair], apart});
       });
   const std::size_t n_packs = (searches.size() + pack_width - 1) / pack_width;
   std::vector<ContactLosses> pack_losses(n_packs);
-  Collected<std::size_t> begun, ended; // indices of searches
-  Collected<std::int32_t> undecided;
+  Collected<BegunContact> begun;
+  const SearchContext context{p, law, parameters, time_step, grains, separating_direction};
   parallel_ranges(n_packs, 1,
                   [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t pack = begin; pack < end; ++pack)
                     {
                       const std::size_t from = pack * pack_width, to = std::min(from + pack_width, searches.size());
-                      search_contacts<Pack>(std::span(searches).subspan(from, to - from), p, law, parameters, time_step,
-                                            pack_losses[pack]);
-                      for (std::size_t k = from; k < to; ++k)
-                      {
-                        const ContactSearch &s = searches[k];
-                        const std::int32_t pair = searched_pair[k];
-                        if (s.is_undecided)
-                          undecided.of(thread).push_back(pair);
-                        if (s.is_touching && slot[pair] != apart)
-                        {
-                          grains.set(slot[pair], s.state);
-                          grains.resultant[slot[pair]] = s.resultant;
-                        }
-                        else if (s.is_touching)
-                          begun.of(thread).push_back(k);
-                        else
-                        {
-                          separating_direction[pair] = s.guess.cast<float>();
-                          rest_until[pair] = p.motion[s.first] + p.motion[s.second] + s.gap;
-                          if (slot[pair] != apart)
-                            ended.of(thread).push_back(k);
-                        }
-                      }
+                      search_contacts(std::span(searches).subspan(from, to - from), context, pack_losses[pack],
+                                      begun.of(thread));
                     }
                   });
   for (const ContactLosses &lost : pack_losses)
     losses += lost;
-  undecided.for_each([&](std::int32_t) { ++n_undecided; });
   n_searches += static_cast<std::int64_t>(searches.size());
 
   // Contacts that began or ended take and leave their slots one by one.
@@ -232,22 +197,21 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
     slot[pair] = new_slot;
     incidence.is_current = false;
   };
-  ended.for_each(
-      [&](const std::size_t k)
-      {
-        const ContactSearch &s = searches[k];
-        const std::int32_t pair = searched_pair[k];
-        losses +=
-            separate(s.state, s.state.normal, motion_of(p, s.first, s.second, time_step).displacement(s.state.point));
-        grains.remove(slot[pair]);
-        leave(pair);
-      });
-  begun.for_each(
-      [&](const std::size_t k)
-      {
-        const ContactSearch &s = searches[k];
-        enter(searched_pair[k], grains.add(searched_pair[k], s.first, s.second, s.state, s.resultant));
-      });
+  for (const ContactSearch &s : searches)
+  {
+    n_undecided += s.is_undecided;
+    if (s.is_touching)
+      continue;
+    rest_until[s.pair] = p.motion[s.first] + p.motion[s.second] + s.gap;
+    if (s.slot == apart)
+      continue;
+    const ContactState<double> state = grains.get(s.slot);
+    losses += separate(state, state.normal, motion_of(p, s.first, s.second, time_step).displacement(state.point));
+    grains.remove(s.slot);
+    leave(s.pair);
+  }
+  begun.for_each([&](const BegunContact &c)
+                 { enter(c.pair, grains.add(c.pair, c.first, c.second, c.state, c.resultant)); });
   ended_spheres.for_each(
       [&](const std::int32_t s)
       {

@@ -1,16 +1,15 @@
 #include "dem/force/search_contacts.h"
 
-#include "dem/contact/common_normal.h"
-#include "dem/contact/newton_search.h"
+#include "dem/contact/pair_search.h"
 #include "dem/core/rotation_matrix.h"
+#include "dem/force/pair_motion.h"
+
+#include <array>
 
 namespace bergamo::dem
 {
 namespace
 {
-
-/// Evaluations after which the last open pairs of a pack are finished one by one.
-constexpr int max_evaluations = 12;
 
 template <class Real, class Index>
 Pose<Real> gather_pose(const Particles &p, const Index &index)
@@ -30,64 +29,6 @@ Pose<Real> gather_pose(const Particles &p, const Index &index)
           math::generate_vector<Real>([&](const int lane) -> const Vec3 & { return p.position[index(lane)]; })};
 }
 
-BodyPose pose_of(const Particles &p, const std::int32_t i)
-{
-  return make_pose(p.shape[i], p.position[i], p.orientation[i]);
-}
-
-/// One search beyond what the pack could decide.
-ContactGeometry search_alone(const Particles &p, const ContactSearch &s)
-{
-  const BodyPose body1 = pose_of(p, s.first), body2 = pose_of(p, s.second);
-  return s.guess.squaredNorm() > 0. ? update_contact(body1, body2, s.guess) : find_contact(body1, body2);
-}
-
-template <class Real>
-void set_lane(Real &pack, const int lane, const double value)
-{
-  if constexpr (std::is_same_v<Real, double>)
-    pack = value;
-  else
-    pack[static_cast<std::size_t>(lane)] = value;
-}
-
-template <class Real>
-void set_lane(Vector3<Real> &pack, const int lane, const Vec3 &value)
-{
-  for (int d = 0; d < 3; ++d)
-    set_lane(pack[d], lane, value[d]);
-}
-
-template <class Real>
-void set_lane(CurvatureRadii<Real> &pack, const int lane, const CurvatureRadii<double> &value)
-{
-  set_lane(pack.r11, lane, value.r11);
-  set_lane(pack.r22, lane, value.r22);
-  set_lane(pack.r12, lane, value.r12);
-}
-
-/// States of several searches as one of packs, and back.
-template <class Real>
-ContactState<Real> gather_state(const std::span<const ContactSearch> searches)
-{
-  ContactState<Real> packed = ContactState<Real>::begin();
-  constexpr std::size_t n_fields = sizeof(ContactState<double>) / sizeof(double);
-  auto *target = reinterpret_cast<double *>(&packed);
-  for (std::size_t lane = 0; lane < searches.size(); ++lane)
-    for (std::size_t f = 0; f < n_fields; ++f)
-      target[f * width<Real> + lane] = reinterpret_cast<const double *>(&searches[lane].state)[f];
-  return packed;
-}
-
-template <class Real>
-void scatter_state(const ContactState<Real> &packed, const std::size_t lane, ContactState<double> &state)
-{
-  constexpr std::size_t n_fields = sizeof(ContactState<double>) / sizeof(double);
-  const auto *source = reinterpret_cast<const double *>(&packed);
-  for (std::size_t f = 0; f < n_fields; ++f)
-    reinterpret_cast<double *>(&state)[f] = source[f * width<Real> + lane];
-}
-
 /// Share of the contact in the virtual work: interpolated along the line of centres, Wellmann (6.29), and held between
 /// the weights of the particles where the contact lies beside that line.
 template <class Real>
@@ -100,94 +41,82 @@ Real contact_weight(const Real &weight1, const Real &weight2, const Vector3<Real
 
 } // namespace
 
-template <class Real>
-void search_contacts(const std::span<ContactSearch> searches, const Particles &p, const ContactLaw &law,
-                     const ContactParameters &parameters, const double time_step, ContactLosses &losses)
+void search_contacts(const std::span<ContactSearch> searches, const SearchContext &context, ContactLosses &losses,
+                     std::vector<BegunContact> &begun)
 {
+  const Particles &p = context.particles;
   const int n = static_cast<int>(searches.size());
   const auto search_of = [&](const int lane) -> const ContactSearch & { return searches[lane < n ? lane : 0]; };
   const auto first = [&](const int lane) { return search_of(lane).first; };
   const auto second = [&](const int lane) { return search_of(lane).second; };
-  const auto load = [&](const auto &number)
-  { return math::generate<Real>([&](const int lane) -> double { return number(search_of(lane)); }); };
+  const auto load = [&](const std::vector<double> &values, const auto &index)
+  { return math::generate<Pack>([&](const int lane) { return values[index(lane)]; }); };
 
-  const Pose<Real> body1 = gather_pose<Real>(p, first), body2 = gather_pose<Real>(p, second);
-  const Vector3<Real> centre_line = body2.position - body1.position;
-  const Vector3<Real> guess =
-      math::generate_vector<Real>([&](const int lane) -> const Vec3 & { return search_of(lane).guess; });
-  const Real guess_square = guess.squaredNorm();
-  const auto is_known = guess_square > Real(0.);
-  const Vector3<Real> start = math::select<Real>(is_known, Vector3<Real>(guess / math::sqrt(guess_square)),
-                                                 Vector3<Real>(centre_line / centre_line.norm()));
-  NewtonSearch<Real> search(body1, body2, start);
-  search.run(max_evaluations);
+  // The states of last step; a pair without a contact gets one about to begin.
+  ContactState<Pack> s = ContactState<Pack>::begin();
+  Vector3<Pack> guess;
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    const ContactSearch &search = search_of(lane);
+    const bool has_contact = search.slot >= 0;
+    if (has_contact)
+      context.store.copy_lane(search.slot, s, lane);
+    for (int d = 0; d < 3; ++d)
+      guess[d][lane] = has_contact ? math::lane(s.normal[d], lane) : context.direction[search.pair][d];
+  }
 
-  Evaluation<Real> &found = search.best;
-  const auto is_doubtful = search.is_open || (!is_known && found.phi > Real(0.) && is_suspicious(search));
-  Vector3<Real> arm2 = found.arm1 + found.gap - centre_line;
-  for (int lane = 0; lane < n; ++lane)
-    if (math::lane(is_doubtful, lane))
-    {
-      const ContactGeometry alone = search_alone(p, searches[lane]);
-      set_lane(found.c, lane, alone.normal);
-      set_lane(found.phi, lane, alone.overlap);
-      set_lane(found.arm1, lane, alone.arm1);
-      set_lane(arm2, lane, alone.arm2);
-      set_lane(found.radii1, lane, alone.radii1);
-      set_lane(found.radii2, lane, alone.radii2);
-      searches[lane].is_undecided = alone.status == ContactStatus::undecided;
-    }
+  const Pose<Pack> body1 = gather_pose<Pack>(p, first), body2 = gather_pose<Pack>(p, second);
+  const FoundContacts<Pack> found = search_pairs<Pack>(body1, body2, guess, n);
   for (int lane = 0; lane < n; ++lane)
   {
-    searches[lane].is_touching = math::lane(found.phi, lane) > 0.;
-    searches[lane].guess = math::lane<Real>(found.c, lane);
-    searches[lane].gap = -math::lane(found.phi, lane);
+    ContactSearch &search = searches[lane];
+    search.is_undecided = found.is_undecided[lane];
+    search.is_touching = math::lane(found.overlap, lane) > 0.;
+    search.gap = -math::lane(found.overlap, lane);
+    if (!search.is_touching)
+      context.direction[search.pair] = math::lane<Pack>(found.normal, lane).cast<float>();
   }
-  const auto is_touching = found.phi > Real(0.);
-  if (!math::any(is_touching))
+  if (!math::any(found.overlap > 0.))
     return;
 
-  const PairMotion<Real> motion(p, first, second, time_step);
-  const RelativeCurvature<Real> curvature = relative_curvature(
-      tangent_frame(found.c), found.radii1, curvature_bounds(body1.shape, parameters.curvature_bound), found.radii2,
-      curvature_bounds(body2.shape, parameters.curvature_bound));
-  ContactState<Real> s = gather_state<Real>(searches);
-  const Real old_overlap = s.overlap;
+  const PairMotion<Pack> motion(p, first, second, context.time_step);
+  const double bound = context.parameters.curvature_bound;
+  const RelativeCurvature<Pack> curvature =
+      relative_curvature(tangent_frame(found.normal), found.radii1, curvature_bounds(body1.shape, bound), found.radii2,
+                         curvature_bounds(body2.shape, bound));
+  const Pack old_overlap = s.overlap;
   s.spin += motion.turn_about(s.normal);
-  const ContactState<Real> before = s;
-  take_geometry(s, found.c, found.phi, curvature, law.elastic);
-  s.point = (found.arm1 + arm2) * Real(0.5);
-  const Real weight1 = load([&](const ContactSearch &c) { return p.weight[c.first]; });
-  const Real weight2 = load([&](const ContactSearch &c) { return p.weight[c.second]; });
-  s.weight = contact_weight<Real>(weight1, weight2, centre_line, s.point + centre_line * Real(0.5));
-  const Real mass1 = load([&](const ContactSearch &c) { return p.mass[c.first]; });
-  const Real mass2 = load([&](const ContactSearch &c) { return p.mass[c.second]; });
-  s.reduced_mass = mass1 * mass2 / (mass1 + mass2);
-  s.radius = math::min(load([&](const ContactSearch &c) { return p.bounding_radius[c.first]; }),
-                       load([&](const ContactSearch &c) { return p.bounding_radius[c.second]; }));
-  s.budget = motion_budget(parameters, s.radius, s.overlap, (found.radii1 + found.radii2).norm());
+  const ContactState<Pack> before = s;
+  take_geometry(s, found.normal, found.overlap, curvature, context.law.elastic);
+  s.point = (found.arm1 + found.arm2) * Pack(0.5);
+  s.weight = contact_weight<Pack>(load(p.weight, first), load(p.weight, second), motion.half_line * Pack(2.),
+                                  s.point + motion.half_line);
+  const Pack mass1 = load(p.mass, first), mass2 = load(p.mass, second);
+  s.reduced_mass = 1. / (1. / mass1 + 1. / mass2);
+  s.radius = math::min(load(p.bounding_radius, first), load(p.bounding_radius, second));
+  s.budget = motion_budget(context.parameters, s.radius, s.overlap, (found.radii1 + found.radii2).norm());
 
-  Losses<Real> lost;
+  Losses<Pack> lost;
   lost.curvature = curvature_work(before, s, old_overlap);
-  const Vector3<Real> force = advance_contact(s, law, old_overlap, motion.displacement(s.point), time_step, lost);
-  store_resultants<Real>(force, s.point, motion.half_line,
-                         [&](const int lane)
-                         {
-                           const bool is_wanted = lane < n && searches[lane].is_touching;
-                           return is_wanted ? &searches[lane].resultant : nullptr;
-                         });
+  const Vector3<Pack> force =
+      advance_contact(s, context.law, old_overlap, motion.displacement(s.point), context.time_step, lost);
+  std::array<Resultant, pack_width> resultant;
+  store_resultants<Pack>(force, s.point, motion.half_line, [&](const int lane) { return &resultant[lane]; });
   for (int lane = 0; lane < n; ++lane)
-    if (searches[lane].is_touching)
+  {
+    const ContactSearch &search = searches[lane];
+    if (!search.is_touching)
+      continue;
+    losses += ContactLosses{math::lane(lost.friction, lane), math::lane(lost.viscous, lane),
+                            math::lane(lost.curvature, lane)};
+    if (search.slot >= 0)
     {
-      scatter_state(s, lane, searches[lane].state);
-      losses += ContactLosses{math::lane(lost.friction, lane), math::lane(lost.viscous, lane),
-                              math::lane(lost.curvature, lane)};
+      context.store.take_lane(search.slot, s, lane);
+      context.store.resultant[search.slot] = resultant[lane];
+      continue;
     }
+    begun.push_back({search.pair, search.first, search.second, lane_of(s, lane), resultant[lane]});
+  }
 }
-
-template void search_contacts<double>(std::span<ContactSearch>, const Particles &, const ContactLaw &,
-                                      const ContactParameters &, double, ContactLosses &);
-template void search_contacts<Pack>(std::span<ContactSearch>, const Particles &, const ContactLaw &,
-                                    const ContactParameters &, double, ContactLosses &);
 
 } // namespace bergamo::dem

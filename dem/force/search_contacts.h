@@ -3,11 +3,13 @@
 #include "dem/force/contact_law.h"
 #include "dem/force/contact_parameters.h"
 #include "dem/force/contact_state.h"
+#include "dem/force/contact_store.h"
 #include "dem/force/pair_motion.h"
 #include "dem/state/particles.h"
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace bergamo::dem
 {
@@ -15,21 +17,39 @@ namespace bergamo::dem
 /// A pair of grains whose contact is to be searched, and what came of it.
 struct ContactSearch
 {
+  std::int32_t pair;          ///< of the Verlet list
   std::int32_t first, second; ///< grains
-  Vec3 guess;                 ///< normal of an earlier search, or zero for a pair never searched
-  ContactState<double> state; ///< as last step left it, or ContactState::begin(); the outcome if touching
+  std::int32_t slot;          ///< of a contact that touched last step, else negative
 
   bool is_touching = false;
   bool is_undecided = false;
-  double gap = 0.;          ///< lower bound where apart [m]
-  Resultant resultant = {}; ///< where touching
+  double gap = 0.; ///< lower bound where apart [m]
 };
 
-/// Searches as many pairs as Real has lanes at the present poses, from their guesses; a touching pair gets this step's
-/// state and forces, a pair apart a separating direction in `guess`.
-/// @param searches at most width<Real>; @param[in,out] losses with the weights [J]
-template <class Real>
-void search_contacts(std::span<ContactSearch> searches, const Particles &particles, const ContactLaw &law,
-                     const ContactParameters &parameters, double time_step, ContactLosses &losses);
+/// A contact that a search found and that did not touch last step: it has no slot yet.
+struct BegunContact
+{
+  std::int32_t pair, first, second;
+  ContactState<double> state;
+  Resultant resultant;
+};
+
+/// What searches work on.
+struct SearchContext
+{
+  const Particles &particles;
+  const ContactLaw &law;
+  const ContactParameters &parameters;
+  double time_step;
+  ContactStore<ContactState> &store; ///< contacts with a slot are brought to this step where they touch
+  /// By pair: direction from which the search of a pair apart starts, zero for a pair never searched; takes what is
+  /// found.
+  std::vector<Eigen::Vector3f> &direction;
+};
+
+/// Searches one pack of pairs at the present poses. @param searches at most pack_width, of different pairs
+/// @param[in,out] losses with the weights [J]; @param[in,out] begun appended to
+void search_contacts(std::span<ContactSearch> searches, const SearchContext &context, ContactLosses &losses,
+                     std::vector<BegunContact> &begun);
 
 } // namespace bergamo::dem

@@ -64,8 +64,8 @@ double axis_ratio(const double curvature_ratio)
 }
 
 /// Wellmann (3.19), (3.21), (3.22), (3.23) for delta = 1, from K and E directly.
-HertzMindlin direct(const double a, const double b, const double kappa, const double k, const double e, const double d,
-                    const double bm, const ElasticPair &pair)
+HertzMindlin<double> direct(const double a, const double b, const double kappa, const double k, const double e,
+                            const double d, const double bm, const ElasticPair &pair)
 {
   const double semi_axis = std::sqrt(d / (a * k));
   return {2. / 3. * pi * kappa * std::sqrt(e / (k * k * k * (a + b))) * pair.effective_modulus,
@@ -85,7 +85,28 @@ Mat3 tip_hessian(const double x, const double y, const double z, const double an
   return turn * Vec3(x * x / z, y * y / z, 0.).asDiagonal() * turn.transpose();
 }
 
-constexpr CurvatureBounds wide{1e-12, 1e12};
+constexpr CurvatureBounds<double> wide{1e-12, 1e12};
+
+/// The tangential part of d p / d n in the frame that the law expects.
+CurvatureRadii<double> in_frame(const Vec3 &normal, const Mat3 &hessian)
+{
+  const TangentFrame frame = tangent_frame(normal);
+  const Eigen::Matrix2d radii = frame.transpose() * hessian * frame;
+  return {radii(0, 0), radii(1, 1), radii(0, 1)};
+}
+
+RelativeCurvature<double> curvature_at(const Vec3 &normal, const Mat3 &hessian1, const CurvatureBounds<double> &bounds1,
+                                       const Mat3 &hessian2, const CurvatureBounds<double> &bounds2)
+{
+  return relative_curvature(tangent_frame(normal), in_frame(normal, hessian1), bounds1, in_frame(normal, hessian2),
+                            bounds2);
+}
+
+/// Against a plane.
+RelativeCurvature<double> curvature_at(const Vec3 &normal, const Mat3 &hessian, const CurvatureBounds<double> &bounds)
+{
+  return relative_curvature(tangent_frame(normal), in_frame(normal, hessian), bounds);
+}
 
 const Material soft{60e9, 0.3, 2650.}, hard{200e9, 0.15, 7800.};
 
@@ -126,7 +147,8 @@ TEST_CASE("the table gives the force and the stiffnesses of the elliptic integra
     const double a = std::exp(scale(generator)), b = a * ratio;
     const double kappa = axis_ratio(ratio);
     const Integrals s(kappa);
-    const HertzMindlin expected = direct(a, b, kappa, s.k, s.e, s.d, s.b, pair), found = hertz_mindlin(a, b, pair);
+    const HertzMindlin<double> expected = direct(a, b, kappa, s.k, s.e, s.d, s.b, pair),
+                               found = hertz_mindlin(a, b, pair);
     worst_normal = std::max(worst_normal, relative(found.normal, expected.normal));
     worst_major = std::max(worst_major, relative(found.tangential_major, expected.tangential_major));
     worst_minor = std::max(worst_minor, relative(found.tangential_minor, expected.tangential_minor));
@@ -134,7 +156,7 @@ TEST_CASE("the table gives the force and the stiffnesses of the elliptic integra
     {
       const double e2 = 1. - 1. / (kappa * kappa), k = std::comp_ellint_1(std::sqrt(e2)),
                    e = std::comp_ellint_2(std::sqrt(e2));
-      const HertzMindlin standard = direct(a, b, kappa, k, e, (k - e) / e2, (e - (1. - e2) * k) / e2, pair);
+      const HertzMindlin<double> standard = direct(a, b, kappa, k, e, (k - e) / e2, (e - (1. - e2) * k) / e2, pair);
       worst_standard = std::max({worst_standard, relative(found.normal, standard.normal),
                                  relative(found.tangential_major, standard.tangential_major)});
     }
@@ -146,7 +168,7 @@ TEST_CASE("the table gives the force and the stiffnesses of the elliptic integra
   CHECK(worst_standard < 1e-8);
 
   // Beyond the table the last entry holds: the dependence on the ratio stops, the one on a + b goes on.
-  const HertzMindlin last = hertz_mindlin(1., 1e10, pair), beyond = hertz_mindlin(1., 1e12, pair);
+  const HertzMindlin<double> last = hertz_mindlin(1., 1e10, pair), beyond = hertz_mindlin(1., 1e12, pair);
   CHECK(relative(beyond.normal * std::sqrt(1. + 1e12), last.normal * std::sqrt(1. + 1e10)) < 1e-14);
 }
 
@@ -164,26 +186,26 @@ TEST_CASE("two spheres, and a sphere on a plane")
     {
       const Vec3 n = Vec3(0.3, -0.5, 0.9).normalized();
       const Mat3 tangential = Mat3::Identity() - n * n.transpose();
-      const auto check_sphere = [&](const RelativeCurvature &c, const double radius)
+      const auto check_sphere = [&](const RelativeCurvature<double> &c, const double radius)
       {
         // R* of two spheres: 1/R* = 1/r1 + 1/r2 and A = B = 1/(2 R*).
         CHECK(relative(c.a, 0.5 / radius) < 1e-12);
         CHECK(relative(c.b, 0.5 / radius) < 1e-12);
         CHECK(std::abs(c.major_axis.norm() - 1.) < 1e-14);
         CHECK(std::abs(c.major_axis.dot(n)) < 1e-14);
-        const HertzMindlin law = hertz_mindlin(c.a, c.b, pair);
+        const HertzMindlin<double> law = hertz_mindlin(c.a, c.b, pair);
         CHECK(relative(law.normal, 4. / 3. * std::sqrt(radius) * pair.effective_modulus) < 1e-11);
         const double stiffness = 4. * shear_modulus * std::sqrt(radius) / (2. - nu);
         CHECK(relative(law.tangential_major, stiffness) < 1e-11);
         CHECK(relative(law.tangential_minor, stiffness) < 1e-11);
       };
-      check_sphere(relative_curvature(n, r1 * tangential, wide, r2 * tangential, wide), r1 * r2 / (r1 + r2));
-      check_sphere(relative_curvature(n, r1 * tangential, wide), r1);
+      check_sphere(curvature_at(n, r1 * tangential, wide, r2 * tangential, wide), r1 * r2 / (r1 + r2));
+      check_sphere(curvature_at(n, r1 * tangential, wide), r1);
     }
   }
   // Unlike materials: 1/C = 4 a / ((2 - nu1)/G1 + (2 - nu2)/G2)) * 2 (Mindlin 1949): 8 a / ((2-nu1)/G1 + (2-nu2)/G2).
   const double g1 = soft.young_modulus / (2. * 1.3), g2 = hard.young_modulus / (2. * 1.15);
-  const HertzMindlin law = hertz_mindlin(0.5, 0.5, elastic_pair(soft, hard)); // R* = 1
+  const HertzMindlin<double> law = hertz_mindlin(0.5, 0.5, elastic_pair(soft, hard)); // R* = 1
   CHECK(relative(law.tangential_major, 8. / (1.7 / g1 + 1.85 / g2)) < 1e-11);
 }
 
@@ -195,8 +217,8 @@ TEST_CASE("relative curvature of crossed ellipsoids in closed form")
   const double k1x = z1 / (x1 * x1), k1y = z1 / (y1 * y1), k2x = z2 / (x2 * x2), k2y = z2 / (y2 * y2);
   for (double angle = -3.; angle < 3.2; angle += 0.17)
   {
-    const RelativeCurvature c = relative_curvature(Vec3::UnitZ(), tip_hessian(x1, y1, z1, 0.4), wide,
-                                                   tip_hessian(x2, y2, z2, 0.4 + angle), wide);
+    const RelativeCurvature<double> c =
+        curvature_at(Vec3::UnitZ(), tip_hessian(x1, y1, z1, 0.4), wide, tip_hessian(x2, y2, z2, 0.4 + angle), wide);
     const double d1 = k1x - k1y, d2 = k2x - k2y;
     const double sum = 0.5 * (k1x + k1y + k2x + k2y);
     const double difference = 0.5 * std::sqrt(d1 * d1 + d2 * d2 + 2. * d1 * d2 * std::cos(2. * angle));
@@ -213,12 +235,12 @@ TEST_CASE("relative curvature of crossed ellipsoids in closed form")
     CHECK(std::abs(c.major_axis[2]) < 1e-15);
   }
   // Two long rods, crossed at right angles: circular contact; parallel: a line, b/a = ratio of the curvatures.
-  const RelativeCurvature crossed =
-      relative_curvature(Vec3::UnitZ(), tip_hessian(10., 1., 1., 0.), wide, tip_hessian(10., 1., 1., 0.5 * pi), wide);
+  const RelativeCurvature<double> crossed =
+      curvature_at(Vec3::UnitZ(), tip_hessian(10., 1., 1., 0.), wide, tip_hessian(10., 1., 1., 0.5 * pi), wide);
   CHECK(relative(crossed.b, crossed.a) < 1e-14);
   CHECK(relative(crossed.a, 0.5 * (1. + 0.01)) < 1e-14);
-  const RelativeCurvature parallel =
-      relative_curvature(Vec3::UnitZ(), tip_hessian(10., 1., 1., 0.), wide, tip_hessian(10., 1., 1., 0.), wide);
+  const RelativeCurvature<double> parallel =
+      curvature_at(Vec3::UnitZ(), tip_hessian(10., 1., 1., 0.), wide, tip_hessian(10., 1., 1., 0.), wide);
   CHECK(relative(parallel.a, 0.01) < 1e-13);
   CHECK(relative(parallel.b, 1.) < 1e-13);
   CHECK(std::abs(std::abs(parallel.major_axis[0]) - 1.) < 1e-14);
@@ -233,17 +255,17 @@ TEST_CASE("relative curvature does not depend on the frame or on the order of th
   {
     const Mat3 h1 = tip_hessian(axis(generator), axis(generator), axis(generator), angle(generator));
     const Mat3 h2 = tip_hessian(axis(generator), axis(generator), axis(generator), angle(generator));
-    const RelativeCurvature one = relative_curvature(Vec3::UnitZ(), h1, wide, h2, wide);
-    const RelativeCurvature other = relative_curvature(-Vec3::UnitZ(), h2, wide, h1, wide);
+    const RelativeCurvature<double> one = curvature_at(Vec3::UnitZ(), h1, wide, h2, wide);
+    const RelativeCurvature<double> other = curvature_at(-Vec3::UnitZ(), h2, wide, h1, wide);
     CHECK(relative(other.a, one.a) < 1e-12);
     CHECK(relative(other.b, one.b) < 1e-12);
-    CHECK(relative_curvature(Vec3::UnitZ(), h2, wide, h1, wide).a == one.a);
+    CHECK(curvature_at(Vec3::UnitZ(), h2, wide, h1, wide).a == one.a);
     if (one.b > 1.001 * one.a)
       CHECK(std::abs(std::abs(other.major_axis.dot(one.major_axis)) - 1.) < 1e-9);
 
     const Mat3 turn = Quaternion(Eigen::Vector4d::Random()).normalized().toRotationMatrix();
-    const RelativeCurvature turned =
-        relative_curvature(turn.col(2), turn * h1 * turn.transpose(), wide, turn * h2 * turn.transpose(), wide);
+    const RelativeCurvature<double> turned =
+        curvature_at(turn.col(2), turn * h1 * turn.transpose(), wide, turn * h2 * turn.transpose(), wide);
     CHECK(relative(turned.a, one.a) < 1e-11);
     CHECK(relative(turned.b, one.b) < 1e-11);
     if (one.b > 1.001 * one.a)
@@ -258,20 +280,20 @@ TEST_CASE("relative curvature does not depend on the frame or on the order of th
 TEST_CASE("radii of curvature are kept within their bounds")
 {
   // Flat (radius 1e9) and sharp (radius 1e-9) spots take the bounds; the directions stay. Half the curvatures 1/r add.
-  const CurvatureBounds bounds{0.1, 20.};
+  const CurvatureBounds<double> bounds{0.1, 20.};
   const Mat3 mixed = Vec3(1e9, 1e-9, 0.).asDiagonal();
-  const RelativeCurvature on_plane = relative_curvature(Vec3::UnitZ(), mixed, bounds);
+  const RelativeCurvature<double> on_plane = curvature_at(Vec3::UnitZ(), mixed, bounds);
   CHECK(relative(on_plane.a, 0.5 / 20.) < 1e-12);
   CHECK(relative(on_plane.b, 0.5 / 0.1) < 1e-12);
   CHECK(std::abs(std::abs(on_plane.major_axis[0]) - 1.) < 1e-14);
 
-  const RelativeCurvature flat = relative_curvature(Vec3::UnitZ(), Vec3(1e95, 1e95, 0.).asDiagonal(), bounds,
-                                                    Vec3(0., 0., 0.).asDiagonal(), bounds);
+  const RelativeCurvature<double> flat =
+      curvature_at(Vec3::UnitZ(), Vec3(1e95, 1e95, 0.).asDiagonal(), bounds, Vec3(0., 0., 0.).asDiagonal(), bounds);
   CHECK(relative(flat.a, 0.5 * (1. / 20. + 1. / 0.1)) < 1e-12);
   CHECK(relative(flat.b, flat.a) < 1e-12);
 
   // Within the bounds nothing changes.
   const Mat3 usual = Vec3(0.5, 7., 0.).asDiagonal();
-  CHECK(relative(relative_curvature(Vec3::UnitZ(), usual, bounds).a, 0.5 / 7.) < 1e-13);
-  CHECK(relative(relative_curvature(Vec3::UnitZ(), usual, bounds).b, 0.5 / 0.5) < 1e-13);
+  CHECK(relative(curvature_at(Vec3::UnitZ(), usual, bounds).a, 0.5 / 7.) < 1e-13);
+  CHECK(relative(curvature_at(Vec3::UnitZ(), usual, bounds).b, 0.5 / 0.5) < 1e-13);
 }

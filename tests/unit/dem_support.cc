@@ -15,11 +15,6 @@ namespace
 
 constexpr double pi = std::numbers::pi;
 
-SupportShape<double> support_shape(const Superquadric &s)
-{
-  return {s.half_axes[0], s.half_axes[1], s.half_axes[2], 2. / (2. - s.eps1), 2. / (2. - s.eps2)};
-}
-
 Support<double> support_of(const Superquadric &s, const Vec3 &n)
 {
   return support(support_shape(s), n[0], n[1], n[2]);
@@ -246,7 +241,7 @@ TEST_CASE("normals with components that are exactly zero, or tiny, give finite a
 
 TEST_CASE("the support of a placed body turns with it")
 {
-  // arm(R n) = R X(n), hessian R H R^T: three rotations of a vector, a few rounding units.
+  // arm(R n) = R X(n), Hessian R H R^T, seen in the tangent frame: three rotations of a vector, a few rounding units.
   RandomBodies random(9);
   for (int i = 0; i < 200; ++i)
   {
@@ -256,9 +251,14 @@ TEST_CASE("the support of a placed body turns with it")
     const BodyPose pose = make_pose(body, random.direction(), turn);
     const Vec3 n = random.direction();
     const Support<double> s = support_of(body, r.transpose() * n);
-    const GlobalSupport g = support(pose, n);
+    const TangentFrame frame = tangent_frame(n);
+    const PlacedSupport<double> g = support(pose, n, frame);
     CHECK(std::abs(g.height - s.h) <= 1e-15 * s.h);
     CHECK((g.arm - r * gradient(s)).norm() <= 1e-14 * s.h);
-    CHECK((g.hessian - r * hessian(s) * r.transpose()).norm() <= 1e-13 * hessian(s).norm());
+    const Eigen::Matrix2d radii = frame.transpose() * r * hessian(s) * r.transpose() * frame;
+    const double bound = 1e-13 * hessian(s).norm();
+    CHECK(std::abs(g.radii.r11 - radii(0, 0)) <= bound);
+    CHECK(std::abs(g.radii.r22 - radii(1, 1)) <= bound);
+    CHECK(std::abs(g.radii.r12 - radii(0, 1)) <= bound);
   }
 }
