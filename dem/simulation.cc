@@ -44,6 +44,7 @@ void SimulationParameters::validate() const
   require(time_step > 0. && std::isfinite(time_step), "time step", time_step, "positive [s]");
   require(verlet_distance > 0. && verlet_distance <= 2., "Verlet distance", verlet_distance,
           "in (0, 2] mean bounding radii");
+  require(sort_interval >= 1, "interval of sorting", sort_interval, "at least 1 renewal of the neighbours");
   require(gravity.allFinite(), "gravity", gravity.norm(), "finite [m/s^2]");
 }
 
@@ -94,7 +95,8 @@ void Simulation::change(const SimulationParameters &parameters)
 void Simulation::rebuild_neighbours()
 {
   check_finite(); // places that are no numbers have no cell
-  pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, h.verlet_distance), particles);
+  pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, particles.mass, h.verlet_distance),
+              particles);
   wall_contacts.renew(particles, walls, h.verlet_distance);
   h.position_when_built = particles.position;
   h.look_at_motion = particles.largest_motion + 0.5 * h.verlet_distance;
@@ -120,6 +122,7 @@ bool Simulation::grains_left_their_neighbours()
 
 void Simulation::sort_by_place()
 {
+  check_finite(); // places that are no numbers have no cell
   const double largest = *std::max_element(particles.bounding_radius.begin(), particles.bounding_radius.end());
   const std::vector<std::int32_t> order = spatial_order(particles.position, 2. * largest);
   permute(particles.id, order);
@@ -147,6 +150,7 @@ void Simulation::sort_by_place()
   wall_contacts.reorder(order);
   for (std::size_t i = 0; i < particles.size(); ++i)
     index_of_id[particles.id[i]] = static_cast<std::int32_t>(i);
+  h.n_rebuilds_when_sorted = n_rebuilds;
   rebuild_neighbours();
 }
 
@@ -171,7 +175,12 @@ void Simulation::compute_forces()
     wall_moved = wall_moved || walls[w].motion - h.wall_motion_when_built[w] > 0.5 * h.verlet_distance;
   Stopwatch watch;
   if (wall_moved || grains_left_their_neighbours())
-    rebuild_neighbours();
+  {
+    if (n_rebuilds - h.n_rebuilds_when_sorted >= p.sort_interval)
+      sort_by_place();
+    else
+      rebuild_neighbours();
+  }
   watch.lap(times.neighbours);
 
   pairs.compute(particles, pair_law, p.contact, p.time_step, times);
@@ -250,7 +259,8 @@ double Simulation::gravity_potential() const
 {
   double sum = 0.;
   for (std::size_t i = 0; i < particles.size(); ++i)
-    sum -= particles.weight[i] * particles.mass[i] * p.gravity.dot(particles.position[i]);
+    if (!particles.is_fixed(i))
+      sum -= particles.weight[i] * particles.mass[i] * p.gravity.dot(particles.position[i]);
   return sum;
 }
 
@@ -260,6 +270,8 @@ GrainEnergy Simulation::energy() const
   const double dt = p.time_step;
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
+    if (particles.is_fixed(i))
+      continue;
     const double mass = particles.weight[i] * particles.mass[i];
     const Vec3 &v = particles.velocity[i];
     Vec3 force = particles.force[i];

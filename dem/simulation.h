@@ -27,6 +27,7 @@ struct SimulationParameters
   Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
   double time_step = 2.5e-7;    ///< [s]
   double verlet_distance = 0.1; ///< over the mean bounding radius
+  int sort_interval = 100;      ///< renewals of the neighbours between two sorts of the grains by place
   ContactParameters contact;
 
   /// Throws ConfigError for a value out of its range.
@@ -94,6 +95,7 @@ public:
   {
     double verlet_distance = 0.; ///< [m]
     double look_at_motion = 0.;  ///< particles.largest_motion below which no grain can have left its neighbours [m]
+    std::int64_t n_rebuilds_when_sorted = 0;
     std::vector<Vec3> position_when_built;
     std::vector<double> wall_motion_when_built;
     double start_potential = 0.;           ///< of gravity when the accounts were opened [J]

@@ -59,6 +59,20 @@ public:
     free.push_back(slot);
   }
 
+  /// Makes room for n contacts in the slots 0 .. n - 1 of an empty store, to be filled by the caller.
+  void resize(const std::size_t n)
+  {
+    const std::size_t n_all = (n + pack_width - 1) / pack_width * pack_width;
+    blocks.assign(n_all / pack_width, State<Pack>::idle());
+    pair.assign(n_all, free_slot);
+    first.assign(n_all, 0);
+    second.assign(n_all, 0);
+    resultant.assign(n_all, {});
+    free.clear();
+    for (std::size_t slot = n_all; slot > n; --slot)
+      free.push_back(static_cast<std::int32_t>(slot - 1));
+  }
+
   State<double> get(const std::int32_t slot) const { return lane_of(blocks[slot / pack_width], slot % pack_width); }
 
   void set(const std::int32_t slot, const State<double> &state)

@@ -84,20 +84,24 @@ NewSphereContact begin_spheres(const Particles &p, const std::int32_t pair, cons
   return contact;
 }
 
-/// Moves contacts to slots in the order of their pairs.
+/// Moves contacts to slots in the order of their pairs. @param pairs those that touch, in their order
 template <template <class> class State>
-void compact(ContactStore<State> &store, std::vector<std::int32_t> &slot_of_pair)
+void compact(ContactStore<State> &store, const std::vector<std::int32_t> &pairs,
+             std::vector<std::int32_t> &slot_of_pair)
 {
-  std::vector<std::int32_t> used;
-  for (std::size_t slot = 0; slot < store.n_slots(); ++slot)
-    if (store.pair[slot] != store.free_slot)
-      used.push_back(static_cast<std::int32_t>(slot));
-  std::sort(used.begin(), used.end(),
-            [&](const std::int32_t a, const std::int32_t b) { return store.pair[a] < store.pair[b]; });
   ContactStore<State> ordered;
-  for (const std::int32_t slot : used)
-    slot_of_pair[store.pair[slot]] =
-        ordered.add(store.pair[slot], store.first[slot], store.second[slot], store.get(slot), store.resultant[slot]);
+  ordered.resize(pairs.size());
+  parallel_for(pairs.size(),
+               [&](const std::size_t k)
+               {
+                 const std::int32_t pair = pairs[k], from = slot_of_pair[pair], to = static_cast<std::int32_t>(k);
+                 ordered.pair[to] = pair;
+                 ordered.first[to] = store.first[from];
+                 ordered.second[to] = store.second[from];
+                 ordered.resultant[to] = store.resultant[from];
+                 ordered.set(to, store.get(from));
+                 slot_of_pair[pair] = to;
+               });
   store = std::move(ordered);
 }
 
@@ -338,14 +342,15 @@ void PairContacts::renew(VerletList new_list, const Particles &particles)
   slot = std::move(new_slot);
   rest_until = std::move(new_rest);
   separating_direction = std::move(new_direction);
+  std::vector<std::int32_t> grain_pairs, sphere_pairs;
   for (std::size_t pair = 0; pair < list.size(); ++pair)
     if (slot[pair] != apart)
     {
       const bool is_sphere = are_spheres(particles, list.first[pair], list.second[pair]);
-      (is_sphere ? spheres.pair : grains.pair)[slot[pair]] = static_cast<std::int32_t>(pair);
+      (is_sphere ? sphere_pairs : grain_pairs).push_back(static_cast<std::int32_t>(pair));
     }
-  compact(grains, slot);
-  compact(spheres, slot);
+  compact(grains, grain_pairs, slot);
+  compact(spheres, sphere_pairs, slot);
   group_rest_until.assign((list.size() + group_size - 1) / group_size, -infinity);
   incidence.is_current = false;
 }

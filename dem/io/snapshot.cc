@@ -142,6 +142,7 @@ void visit_scalars(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/hidden/look_at_motion", h.look_at_motion);
   visit("dem/hidden/start_potential", h.start_potential);
   visit("dem/hidden/removed_wall_work", h.removed_wall_work);
+  visit("dem/hidden/n_rebuilds_when_sorted", h.n_rebuilds_when_sorted);
   visit("dem/n_steps", s.n_steps);
   visit("dem/n_rebuilds", s.n_rebuilds);
   visit("dem/pairs/n_undecided", s.pairs.n_undecided);

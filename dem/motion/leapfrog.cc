@@ -12,6 +12,8 @@ namespace bergamo::dem
 namespace
 {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// Grains from `begin`, as many as there are lanes; lanes beyond `end` repeat the last grain and are not stored.
 struct Lanes
 {
@@ -41,14 +43,15 @@ void store(std::vector<Vec3> &values, const Lanes &grains, const Vector3<Pack> &
 bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const double dt, Pack &largest)
 {
   const Pack weight = load(p.weight, grains), kick = dt / weight;
-  const Pack acceleration = kick / load(p.mass, grains);
+  const Pack mass = load(p.mass, grains), acceleration = kick / mass;
   Vector3<Pack> force = load(p.force, grains);
   if (!p.external_force.empty())
     force += load(p.external_force, grains);
-  const Vector3<Pack> fall(dt * gravity[0], dt * gravity[1], dt * gravity[2]);
+  const Pack free = math::select(mass < infinity, Pack(1.), Pack(0.)); // 0 for a fixed grain
+  const Vector3<Pack> fall(free * (dt * gravity[0]), free * (dt * gravity[1]), free * (dt * gravity[2]));
   const Vector3<Pack> velocity = load(p.velocity, grains) + force * acceleration + fall;
   const Vector3<Pack> position = load(p.position, grains) + velocity * Pack(dt);
-  const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * kick;
+  const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * (kick * free);
 
   const auto number = [&](const int d)
   { return math::generate<Pack>([&](const int lane) { return p.orientation[grains(lane)].coeffs()[d]; }); };
@@ -68,7 +71,6 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
                                                     math::lane(orientation.y, lane), math::lane(orientation.z, lane));
     p.motion[grains.begin + lane] += math::lane(motion, lane);
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   return !math::any(!(motion + position.squaredNorm() + orientation.w < infinity));
 }
 

@@ -87,6 +87,8 @@ public:
     double sum = 0.;
     for (std::size_t i = 0; i < p.size(); ++i)
     {
+      if (p.is_fixed(i))
+        continue;
       const Vec3 body = p.orientation[i].conjugate() * x.rotation[i];
       sum += p.weight[i] * (p.mass[i] * x.translation[i].squaredNorm() + body.dot(p.inertia[i].cwiseProduct(body)));
     }

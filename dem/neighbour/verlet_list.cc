@@ -4,6 +4,7 @@
 #include "dem/neighbour/cell_grid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace bergamo::dem
@@ -14,8 +15,8 @@ namespace
 /// Calls found(j) for every j > i in range of i, cell by cell.
 template <class Found>
 void for_each_neighbour(const CellGrid &grid, const std::span<const Vec3> positions,
-                        const std::span<const double> radii, const double verlet_distance, const std::int32_t i,
-                        Found &&found)
+                        const std::span<const double> radii, const std::span<const double> masses,
+                        const double verlet_distance, const std::int32_t i, Found &&found)
 {
   const int cell = grid.cell_of[i];
   const int cx = cell % grid.n[0], cy = cell / grid.n[0] % grid.n[1], cz = cell / grid.n[0] / grid.n[1];
@@ -29,7 +30,8 @@ void for_each_neighbour(const CellGrid &grid, const std::span<const Vec3> positi
       {
         const std::int32_t j = grid.particles[k];
         const double range = radii[i] + radii[j] + verlet_distance;
-        if (j > i && (positions[j] - positions[i]).squaredNorm() < range * range)
+        if (j > i && !(std::isinf(masses[i]) && std::isinf(masses[j])) &&
+            (positions[j] - positions[i]).squaredNorm() < range * range)
           found(j);
       }
     }
@@ -45,7 +47,7 @@ void exclusive_sum(std::vector<std::int32_t> &counts)
 } // namespace
 
 VerletList build_verlet_list(const std::span<const Vec3> positions, const std::span<const double> radii,
-                             const double verlet_distance)
+                             const std::span<const double> masses, const double verlet_distance)
 {
   const std::size_t n = positions.size();
   const double largest = radii.empty() ? 1. : *std::max_element(radii.begin(), radii.end());
@@ -53,8 +55,10 @@ VerletList build_verlet_list(const std::span<const Vec3> positions, const std::s
 
   VerletList list;
   list.row.assign(n + 1, 0);
-  parallel_for(n, [&](const std::size_t i)
-               { for_each_neighbour(grid, positions, radii, verlet_distance, i, [&](auto) { ++list.row[i]; }); });
+  parallel_for(n,
+               [&](const std::size_t i) {
+                 for_each_neighbour(grid, positions, radii, masses, verlet_distance, i, [&](auto) { ++list.row[i]; });
+               });
   exclusive_sum(list.row);
 
   list.first.resize(list.row[n]);
@@ -63,7 +67,7 @@ VerletList build_verlet_list(const std::span<const Vec3> positions, const std::s
                [&](const std::size_t i)
                {
                  std::int32_t next = list.row[i];
-                 for_each_neighbour(grid, positions, radii, verlet_distance, i,
+                 for_each_neighbour(grid, positions, radii, masses, verlet_distance, i,
                                     [&](const std::int32_t j) { list.second[next++] = j; });
                  std::sort(list.second.begin() + list.row[i], list.second.begin() + list.row[i + 1]);
                  std::fill(list.first.begin() + list.row[i], list.first.begin() + list.row[i + 1],

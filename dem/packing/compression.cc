@@ -121,6 +121,8 @@ double unbalanced_force(const Simulation &simulation)
   std::size_t n_loaded = 0, n_contacts = 0;
   for (std::size_t i = 0; i < simulation.particles.size(); ++i)
   {
+    if (simulation.particles.is_fixed(i))
+      continue;
     const double f = simulation.particles.force[i].norm();
     resultant += f;
     n_loaded += f > 0.;

@@ -1,5 +1,7 @@
 #include "dem/state/particles.h"
 
+#include <limits>
+
 namespace bergamo::dem
 {
 
@@ -20,6 +22,15 @@ void Particles::add(const Superquadric &new_shape, const double density, const V
   torque.push_back(Vec3::Zero());
   weight.push_back(1.);
   motion.push_back(0.);
+}
+
+void Particles::fix(const std::size_t i)
+{
+  mass[i] = std::numeric_limits<double>::infinity();
+  inertia[i].setConstant(mass[i]);
+  velocity[i].setZero();
+  angular_momentum[i].setZero();
+  angular_velocity[i].setZero();
 }
 
 } // namespace bergamo::dem

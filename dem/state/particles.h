@@ -3,6 +3,7 @@
 #include "dem/core/types.h"
 #include "dem/shape/superquadric.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,10 @@ struct Particles
 
   /// Adds a grain at rest. Mass, inertia and bounding radius follow from shape and density [kg/m^3].
   void add(const Superquadric &shape, double density, const Vec3 &position, const Quaternion &orientation);
+
+  /// Holds a grain where it is: a part of a rough wall, of infinite mass and inertia. Two such grains feel no contact.
+  void fix(std::size_t i);
+  bool is_fixed(const std::size_t i) const { return std::isinf(mass[i]); }
 };
 
 } // namespace bergamo::dem
