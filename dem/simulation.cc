@@ -95,7 +95,7 @@ void Simulation::change(const SimulationParameters &parameters)
 void Simulation::rebuild_neighbours()
 {
   check_finite(); // places that are no numbers have no cell
-  pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, particles.mass, h.verlet_distance),
+  pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, h.verlet_distance, particles.mass),
               particles);
   wall_contacts.renew(particles, walls, h.verlet_distance);
   h.position_when_built = particles.position;

@@ -30,7 +30,7 @@ void for_each_neighbour(const CellGrid &grid, const std::span<const Vec3> positi
       {
         const std::int32_t j = grid.particles[k];
         const double range = radii[i] + radii[j] + verlet_distance;
-        if (j > i && !(std::isinf(masses[i]) && std::isinf(masses[j])) &&
+        if (j > i && !(!masses.empty() && std::isinf(masses[i]) && std::isinf(masses[j])) &&
             (positions[j] - positions[i]).squaredNorm() < range * range)
           found(j);
       }
@@ -47,7 +47,7 @@ void exclusive_sum(std::vector<std::int32_t> &counts)
 } // namespace
 
 VerletList build_verlet_list(const std::span<const Vec3> positions, const std::span<const double> radii,
-                             const std::span<const double> masses, const double verlet_distance)
+                             const double verlet_distance, const std::span<const double> masses)
 {
   const std::size_t n = positions.size();
   const double largest = radii.empty() ? 1. : *std::max_element(radii.begin(), radii.end());

@@ -21,10 +21,10 @@ struct VerletList
   std::size_t size() const { return second.size(); }
 };
 
-/// @param positions centres [m]; @param radii bounding radii [m]; @param masses pairs of two infinite ones, which are
-/// fixed, are left out [kg]; @param verlet_distance [m], >= 0: the list holds until any particle has moved half of it
-/// (Wellmann 3.48).
-VerletList build_verlet_list(std::span<const Vec3> positions, std::span<const double> radii,
-                             std::span<const double> masses, double verlet_distance);
+/// @param positions centres [m]; @param radii bounding radii [m]; @param verlet_distance [m], >= 0: the list holds
+/// until any particle has moved half of it (Wellmann 3.48); @param masses pairs of two infinite ones, which are fixed,
+/// are left out; none given, none is fixed [kg]
+VerletList build_verlet_list(std::span<const Vec3> positions, std::span<const double> radii, double verlet_distance,
+                             std::span<const double> masses = {});
 
 } // namespace bergamo::dem
