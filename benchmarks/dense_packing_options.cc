@@ -66,7 +66,8 @@ The sand is Leighton Buzzard sand (half-axes 0.25 to 0.75 mm, exponents 0.6 to 1
 ratio 0.9) at 25 kPa between six rigid walls; the spheres have its grains' volumes. The time step is 0.3 of the stable
 one. The ratios are quotients of medians of particle-steps per second and core: above 1 Bergamo is faster.
 
-Settling 4000 grains takes about a minute, 50000 about ten; it is done once for each folder of --cache.
+Settling takes about a minute for 4000 grains and a quarter of an hour for 50000, on one core; it is done once for each
+folder of --cache.
 
 Exit status: 0 done, 1 the run failed, 2 a mistake on the command line.
 

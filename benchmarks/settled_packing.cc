@@ -26,6 +26,7 @@ constexpr double packing_damping = 0.3;     // rings out fastest; much damping w
 constexpr double packing_step_share = 0.6;  // of the stable step
 constexpr double contraction_share = 0.3;   // kinetic energy of the contraction over that of the pressure
 constexpr double contraction_step = 1.5e-7; // collisions at that speed need it [s]
+constexpr double contraction_verlet = 0.4;  // far movers would ask for new neighbours every few steps
 constexpr double drag = 0.3;                // on the grains, see settle()
 constexpr int adaption_interval = 500;      // steps between two estimates of the stable step
 constexpr int rest_steps = 500;             // with everything as in the measured run
@@ -61,12 +62,12 @@ dem::Particles place_grains(const PackingRecipe &recipe, dem::Box &box)
   return dem::add_at_random(grains, box, sand_parameters().grain.density, generator);
 }
 
-double solid_fraction(const dem::Simulation &simulation)
+double solid_volume(const dem::Simulation &simulation)
 {
-  double solid = 0.;
+  double sum = 0.;
   for (const dem::Superquadric &shape : simulation.particles.shape)
-    solid += dem::volume(shape);
-  return solid / dem::box_between(simulation.walls).volume();
+    sum += dem::volume(shape);
+  return sum;
 }
 
 /// Walls and grains fly towards the centre, all at speeds proportional to their places, so that the grains come
@@ -80,7 +81,8 @@ std::unique_ptr<dem::Simulation> contract(const PackingRecipe &recipe)
   parameters.friction = 0.;
   parameters.damping_ratio = packing_damping;
   parameters.time_step = contraction_step;
-  parameters.contact.overlap_tolerance = 5e-2;
+  parameters.verlet_distance = contraction_verlet;
+  parameters.contact.overlap_tolerance = 0.1;
 
   const double dense = recipe.kind == GrainKind::spheres ? 0.60 : 0.64; // shortly before the grains jam
   const double speed =
@@ -90,7 +92,8 @@ std::unique_ptr<dem::Simulation> contract(const PackingRecipe &recipe)
   auto simulation = std::make_unique<dem::Simulation>(parameters, std::move(particles), dem::box_walls(box));
   for (dem::PlaneWall &wall : simulation->walls)
     wall.velocity = speed * wall.normal;
-  while (solid_fraction(*simulation) < dense)
+  const double end_volume = solid_volume(*simulation) / dense;
+  while (dem::box_between(simulation->walls).volume() > end_volume)
     simulation->step();
   return simulation;
 }
@@ -134,7 +137,8 @@ bool settle(dem::Simulation &simulation, const StageEnd &end)
 std::unique_ptr<dem::Simulation> widened(const dem::Simulation &pressed, const double strain)
 {
   dem::SimulationParameters parameters = pressed.parameters();
-  parameters.contact.overlap_tolerance = 1e-2;
+  parameters.contact.overlap_tolerance = 5e-2;
+  parameters.verlet_distance = sand_parameters().verlet_distance;
   dem::Particles particles;
   for (std::size_t i = 0; i < pressed.particles.size(); ++i)
     particles.add(pressed.particles.shape[i], parameters.grain.density, (1. + strain) * pressed.particles.position[i],
@@ -193,7 +197,7 @@ dem::SimulationParameters sand_parameters()
 PackingFigures packing_figures(const dem::Simulation &simulation)
 {
   PackingFigures figures;
-  figures.solid_fraction = solid_fraction(simulation);
+  figures.solid_fraction = solid_volume(simulation) / dem::box_between(simulation.walls).volume();
   figures.coordination_number = 2. * n_touching(simulation) / simulation.particles.size();
   figures.unbalanced_force = dem::unbalanced_force(simulation);
   figures.pressure = dem::wall_pressure(simulation.walls).mean();
@@ -205,7 +209,7 @@ std::unique_ptr<dem::Simulation> settle_packing(const PackingRecipe &recipe,
 {
   std::unique_ptr<dem::Simulation> simulation = contract(recipe);
   log(describe("contracted", *simulation));
-  settle(*simulation, {press_factor * recipe.pressure, 0.1, 0.02, 2500, contraction_step});
+  settle(*simulation, {press_factor * recipe.pressure, 0.1, 0.02, 1500, contraction_step});
   log(describe("pressed", *simulation));
 
   // Strain = overlap over distance, and overlap ~ pressure^(2/3) (Hertz); a tenth less, as contacts open unevenly.
@@ -213,7 +217,7 @@ std::unique_ptr<dem::Simulation> settle_packing(const PackingRecipe &recipe,
   simulation = widened(*simulation, strain);
   // Spheres gain contacts as long as they relax, and need them more: few grains have so few.
   const StageEnd release = recipe.kind == GrainKind::spheres ? StageEnd{recipe.pressure, 0.003, 0.02, 10000, 4e-7}
-                                                             : StageEnd{recipe.pressure, 0.1, 0.02, 2500, 4e-7};
+                                                             : StageEnd{recipe.pressure, 0.1, 0.02, 1500, 4e-7};
   settle(*simulation, release);
   log(describe("released", *simulation));
 
