@@ -1,0 +1,110 @@
+// Speed of the steps of a settled dense packing, where the work of a quasi-static test lies: particle-steps per second
+// and core for sand and for spheres, with LIGGGHTS on the same spheres as the yardstick. `dense_packing --help`.
+
+#include "benchmarks/dense_packing_options.h"
+#include "benchmarks/dense_packing_report.h"
+#include "benchmarks/packing_cache.h"
+#include "dem/core/error.h"
+#include "dem/io/whole_file.h"
+
+#include <omp.h>
+
+#include <iostream>
+#include <memory>
+
+namespace
+{
+
+using namespace bergamo;
+using namespace bergamo::benchmark;
+
+void log(const std::string &line)
+{
+  std::cerr << line << std::endl;
+}
+
+std::optional<std::filesystem::path> find_liggghts(const DensePackingOptions &options)
+{
+  if (!options.with_liggghts)
+    return std::nullopt;
+  const auto program = Liggghts::find(options.liggghts);
+  if (!program)
+    log("LIGGGHTS '" + options.liggghts +
+        "' was not found: going on without it. On Debian: apt install liggghts, or give its path by --liggghts.");
+  return program;
+}
+
+/// The runs of all programs take turns, so that whatever else the machine does meets them alike.
+SizeResult measure(const DensePackingOptions &options, const int n_grains,
+                   const std::optional<std::filesystem::path> &liggghts_program)
+{
+  SizeResult result{n_grains, {}, {}};
+  std::vector<std::unique_ptr<dem::Simulation>> packings;
+  std::unique_ptr<Liggghts> liggghts;
+  for (const GrainKind kind : options.kinds)
+  {
+    packings.push_back(cached_packing(options.cache, {.kind = kind, .n_grains = n_grains}, log));
+    const dem::Simulation &packing = *packings.back();
+    result.engine.push_back({kind,
+                             packing_figures(packing),
+                             packing.parameters().time_step,
+                             packing.stable_time_step(),
+                             options.n_threads,
+                             {}});
+    if (kind == GrainKind::spheres && liggghts_program)
+    {
+      liggghts = std::make_unique<Liggghts>(*liggghts_program, packing);
+      result.liggghts = LiggghtsResult{liggghts->fastest_skin(), options.n_steps, {}};
+    }
+  }
+  for (int repeat = 0; repeat < options.n_repeats; ++repeat)
+  {
+    for (std::size_t k = 0; k < packings.size(); ++k)
+      result.engine[k].runs.push_back(time_steps(*packings[k], options.n_steps));
+    if (liggghts)
+      result.liggghts->runs.push_back(liggghts->run(options.n_steps, result.liggghts->skin));
+  }
+  return result;
+}
+
+void run(const DensePackingOptions &options)
+{
+  omp_set_num_threads(options.n_threads);
+  std::unique_ptr<dem::WholeFile> json; // opened first, so that a wrong path is known before the work
+  if (!options.json.empty())
+    json = std::make_unique<dem::WholeFile>(options.json);
+  const auto liggghts_program = find_liggghts(options);
+  std::vector<SizeResult> results;
+  for (const int n_grains : options.n_grains)
+  {
+    results.push_back(measure(options, n_grains, liggghts_program));
+    print(results.back());
+  }
+  if (json)
+  {
+    json->write(to_json(results).dump(2) + '\n');
+    json->commit();
+  }
+}
+
+} // namespace
+
+int main(const int argc, char **const argv)
+{
+  try
+  {
+    if (const auto options = parse_dense_packing_options(argc, argv))
+      run(*options);
+    return 0;
+  }
+  catch (const dem::ConfigError &error)
+  {
+    log(std::string("dense_packing: ") + error.what());
+    return 2;
+  }
+  catch (const std::exception &error)
+  {
+    log(std::string("dense_packing: ") + error.what());
+    return 1;
+  }
+}

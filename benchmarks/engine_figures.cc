@@ -1,0 +1,31 @@
+#include "benchmarks/engine_figures.h"
+
+namespace bergamo::benchmark
+{
+
+std::size_t n_touching(const dem::Simulation &simulation)
+{
+  return simulation.pairs.n_touching();
+}
+
+double mean_relative_overlap(const dem::Simulation &simulation)
+{
+  const auto &position = simulation.particles.position;
+  double overlaps = 0., distances = 0.;
+  for (const auto &[first, second, state] : simulation.pairs.touching(simulation.particles))
+  {
+    overlaps += state.overlap;
+    distances += (position[first] - position[second]).norm();
+  }
+  return distances > 0. ? overlaps / distances : 0.;
+}
+
+std::vector<Phase> phase_times(const dem::Simulation &simulation)
+{
+  const dem::PhaseTimes &t = simulation.times;
+  return {{"neighbours", t.neighbours}, {"contacts", t.contacts}, {"screening", t.screening},
+          {"searches", t.searches},     {"walls", t.walls},       {"summation", t.summation},
+          {"motion", t.motion}};
+}
+
+} // namespace bergamo::benchmark

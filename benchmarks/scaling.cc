@@ -1,0 +1,218 @@
+// Parallel efficiency over cores for a settled dense packing and for a flowing hourglass, beside the dissertation's,
+// and the cost of a step over the number of grains. `scaling --help`.
+
+#include "benchmarks/hourglass.h"
+#include "benchmarks/packing_cache.h"
+#include "benchmarks/step_timing.h"
+#include "benchmarks/tiling.h"
+#include "dem/core/error.h"
+#include "dem/io/whole_file.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <optional>
+
+namespace
+{
+
+using namespace bergamo;
+using namespace bergamo::benchmark;
+
+struct Options
+{
+  std::string study = "dense";
+  int n_grains = 0; ///< 0: the study's own
+  int n_steps = 0;
+  int n_repeats = 5;
+  int n_threads = omp_get_num_procs();
+  std::filesystem::path cache = BERGAMO_PACKING_CACHE, json;
+};
+
+void log(const std::string &line)
+{
+  std::cerr << line << std::endl;
+}
+
+/// Wellmann, fig. 3.17: the hourglass of 1e5 superquadrics while it flows.
+const std::map<int, double> dissertation{{2, 0.94}, {4, 0.84}, {8, 0.65}};
+
+/// Steps the same state on 1, 2, ... threads in turn; an efficiency compares two runs of one round.
+nlohmann::json measure_efficiency(const dem::Simulation &start, const Options &options)
+{
+  std::map<int, std::vector<double>> speed, efficiency;
+  for (int repeat = 0; repeat < options.n_repeats; ++repeat)
+    for (int n = 1; n <= options.n_threads; n = n < 4 ? n + 1 : 2 * n)
+    {
+      omp_set_num_threads(n);
+      const double seconds = time_steps(start, options.n_steps).seconds;
+      speed[n].push_back(start.particles.size() * options.n_steps / seconds);
+      efficiency[n].push_back(speed[n].back() / (n * speed[1].back()));
+    }
+  nlohmann::json rows = nlohmann::json::array();
+  std::cout << "threads   million particle-steps/s   efficiency, least median most   dissertation (flowing)\n"
+            << std::fixed;
+  for (const auto &[n, values] : efficiency)
+  {
+    const Spread s = spread(values), v = spread(speed[n]);
+    std::cout << std::setw(7) << n << std::setw(27) << std::setprecision(2) << 1e-6 * v.median << std::setw(20)
+              << std::setprecision(3) << s.least << std::setw(7) << s.median << std::setw(6) << s.most;
+    if (const auto known = dissertation.find(n); known != dissertation.end())
+      std::cout << std::setw(17) << std::setprecision(2) << known->second;
+    std::cout << '\n';
+    rows.push_back({{"threads", n},
+                    {"particle_steps_per_second", v.median},
+                    {"efficiency", {{"least", s.least}, {"median", s.median}, {"most", s.most}}}});
+  }
+  return rows;
+}
+
+nlohmann::json dense(Options options)
+{
+  if (options.n_grains == 0)
+    options.n_grains = 50000;
+  if (options.n_steps == 0)
+    options.n_steps = 200;
+  omp_set_num_threads(options.n_threads);
+  const auto packing = cached_packing(options.cache, {.n_grains = options.n_grains}, log);
+  const PackingFigures f = packing_figures(*packing);
+  std::cout << "dense packing: " << packing->particles.size() << " superquadrics, " << f.coordination_number
+            << " contacts a grain, " << options.n_steps << " steps\n";
+  return measure_efficiency(*packing, options);
+}
+
+nlohmann::json flowing(Options options)
+{
+  HourglassRecipe recipe;
+  if (options.n_grains != 0)
+    recipe.n_grains = options.n_grains;
+  if (options.n_steps == 0)
+    options.n_steps = 50;
+  omp_set_num_threads(options.n_threads);
+  const auto hourglass = flowing_hourglass(recipe, log);
+  const FlowFigures f = flow_figures(*hourglass);
+  std::cout << "flowing hourglass: " << f.n_grains << " superquadrics and " << f.n_wall_spheres << " fixed spheres, "
+            << f.coordination_number << " contacts a grain, mean speed " << f.mean_speed << " m/s, " << options.n_steps
+            << " steps\n";
+  return measure_efficiency(*hourglass, options);
+}
+
+/// Resident memory of this process now [byte].
+double resident_memory()
+{
+  std::ifstream file("/proc/self/statm");
+  double total = 0., resident = 0.;
+  file >> total >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
+}
+
+nlohmann::json size(Options options)
+{
+  const int n_most = options.n_grains ? options.n_grains : 1000000;
+  omp_set_num_threads(1);
+  const auto cell = cached_packing(options.cache, {.n_grains = 1000}, log);
+  nlohmann::json rows = nlohmann::json::array();
+  std::cout << "   grains   contacts a grain   ns a grain and step, least median most   bytes a grain\n" << std::fixed;
+  for (int n = 1; n * n * n * static_cast<int>(cell->particles.size()) <= n_most; n = n < 2 ? 2 : (n < 5 ? 5 : 2 * n))
+  {
+    const double before = resident_memory();
+    auto packing = tile(*cell, n);
+    for (int i = 0; i < 3; ++i)
+      packing->step();
+    const double bytes = (resident_memory() - before) / packing->particles.size();
+    const int steps =
+        options.n_steps ? options.n_steps : std::max(5, static_cast<int>(5e6 / packing->particles.size()));
+    std::vector<double> cost;
+    for (int repeat = 0; repeat < options.n_repeats; ++repeat)
+      cost.push_back(1e9 * time_steps(*packing, steps).seconds / steps / packing->particles.size());
+    const Spread s = spread(cost);
+    const double contacts = 2. * packing->pairs.n_touching() / packing->particles.size();
+    std::cout << std::setw(9) << packing->particles.size() << std::setw(19) << std::setprecision(2) << contacts
+              << std::setw(28) << std::setprecision(0) << s.least << std::setw(7) << s.median << std::setw(6) << s.most
+              << std::setw(16) << bytes << std::endl;
+    rows.push_back({{"grains", packing->particles.size()},
+                    {"ns_per_grain_and_step", {{"least", s.least}, {"median", s.median}, {"most", s.most}}},
+                    {"bytes_per_grain", bytes}});
+  }
+  return rows;
+}
+
+std::optional<Options> parse(const int argc, char **const argv)
+{
+  Options o;
+  CLI::App app("Parallel efficiency of the steps over cores, or their cost over the number of grains.", "scaling");
+  app.add_option("study", o.study,
+                 "dense: settled packing; flowing: hourglass; size: one thread, 10^3 to 10^6 grains (default: dense)")
+      ->check(CLI::IsMember({"dense", "flowing", "size"}));
+  app.add_option("--grains", o.n_grains, "Grains (default: 50000 dense, 100000 flowing, at most 1000000 size)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--steps", o.n_steps, "Measured steps of each run (default: 200 dense, 50 flowing)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--repeats", o.n_repeats, "Rounds, all from the same state (default: 5)")->check(CLI::PositiveNumber);
+  app.add_option("--threads", o.n_threads, "Most threads (default: all cores)")->check(CLI::PositiveNumber);
+  app.add_option("--cache", o.cache, "Folder of settled packings (default: " + o.cache.string() + ")");
+  app.add_option("--json", o.json, "Write the figures to this file, too");
+  app.footer("Keep the machine free of other work: threads wait for one another at every phase of a step.");
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::CallForHelp &)
+  {
+    std::cout << app.help();
+    return std::nullopt;
+  }
+  catch (const CLI::ParseError &error)
+  {
+    throw dem::ConfigError(std::string(error.what()) + "; see 'scaling --help'");
+  }
+  std::error_code error;
+  std::filesystem::create_directories(o.cache, error);
+  if (error)
+    throw dem::ConfigError("--cache '" + o.cache.string() + "' cannot be made: " + error.message() +
+                           "; name a folder that you may write to");
+  return o;
+}
+
+} // namespace
+
+int main(const int argc, char **const argv)
+{
+  try
+  {
+    const auto options = parse(argc, argv);
+    if (!options)
+      return 0;
+    std::unique_ptr<dem::WholeFile> json; // opened first, so that a wrong path is known before the work
+    if (!options->json.empty())
+      json = std::make_unique<dem::WholeFile>(options->json);
+    const nlohmann::json rows = options->study == "dense"     ? dense(*options)
+                                : options->study == "flowing" ? flowing(*options)
+                                                              : size(*options);
+    if (json)
+    {
+      json->write(nlohmann::json{{"study", options->study}, {"rows", rows}}.dump(2) + '\n');
+      json->commit();
+    }
+    return 0;
+  }
+  catch (const dem::ConfigError &error)
+  {
+    log(std::string("scaling: ") + error.what());
+    return 2;
+  }
+  catch (const std::exception &error)
+  {
+    log(std::string("scaling: ") + error.what());
+    return 1;
+  }
+}
