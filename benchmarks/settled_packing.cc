@@ -209,15 +209,17 @@ std::unique_ptr<dem::Simulation> settle_packing(const PackingRecipe &recipe,
 {
   std::unique_ptr<dem::Simulation> simulation = contract(recipe);
   log(describe("contracted", *simulation));
-  settle(*simulation, {press_factor * recipe.pressure, 0.1, 0.02, 1500, contraction_step});
+  settle(*simulation, {press_factor * recipe.pressure, 0.1, 0.02, 2500, contraction_step});
   log(describe("pressed", *simulation));
 
   // Strain = overlap over distance, and overlap ~ pressure^(2/3) (Hertz); a tenth less, as contacts open unevenly.
   const double strain = 0.9 * (1. - std::pow(press_factor, -2. / 3.)) * mean_relative_overlap(*simulation);
   simulation = widened(*simulation, strain);
-  // Spheres gain contacts as long as they relax, and need them more: few grains have so few.
-  const StageEnd release = recipe.kind == GrainKind::spheres ? StageEnd{recipe.pressure, 0.003, 0.02, 10000, 4e-7}
-                                                             : StageEnd{recipe.pressure, 0.1, 0.02, 1500, 4e-7};
+  // Spheres gain contacts as long as they relax, and few of them, many of which touch walls, need that more.
+  const int sphere_steps = std::clamp(40'000'000 / recipe.n_grains, 3000, 10000);
+  const StageEnd release = recipe.kind == GrainKind::spheres
+                               ? StageEnd{recipe.pressure, 0.003, 0.02, sphere_steps, 4e-7}
+                               : StageEnd{recipe.pressure, 0.1, 0.02, 2500, 4e-7};
   settle(*simulation, release);
   log(describe("released", *simulation));
 
