@@ -123,11 +123,12 @@ bool settle(dem::Simulation &simulation, const StageEnd &end)
       simulation.change(parameters);
     }
     const double rate = drag / (std::cbrt(particles.size()) * parameters.time_step);
+    particles.external_force.resize(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i)
       particles.external_force[i] = -rate * particles.mass[i] * particles.velocity[i];
     compression.step(simulation);
   }
-  std::fill(particles.external_force.begin(), particles.external_force.end(), dem::Vec3::Zero());
+  particles.external_force.clear();
   for (dem::PlaneWall &wall : simulation.walls)
     wall.velocity.setZero();
   return compression.is_finished();

@@ -142,10 +142,9 @@ void Simulation::sort_by_place()
   permute(particles.weight, order);
   permute(particles.motion, order);
   if (!h.external_work.empty())
-  {
     permute(h.external_work, order);
+  if (!h.last_external_force.empty())
     permute(h.last_external_force, order);
-  }
   pairs.reorder(order, particles);
   wall_contacts.reorder(order);
   for (std::size_t i = 0; i < particles.size(); ++i)
@@ -208,7 +207,7 @@ void Simulation::integrate()
 {
   Stopwatch watch;
   const double dt = p.time_step;
-  if (!particles.external_force.empty())
+  if (!particles.external_force.empty() || !h.last_external_force.empty())
     book_external_work();
   const bool is_finite = advance(particles, p.gravity, dt);
   for (PlaneWall &wall : walls)
@@ -227,14 +226,17 @@ void Simulation::book_external_work()
 {
   h.external_work.resize(particles.size(), 0.);
   h.last_external_force.resize(particles.size(), Vec3::Zero());
+  const bool acts = !particles.external_force.empty();
   parallel_for(particles.size(),
                [&](const std::size_t i)
                {
-                 const Vec3 &external = particles.external_force[i];
+                 const Vec3 external = acts ? particles.external_force[i] : Vec3(Vec3::Zero());
                  h.external_work[i] +=
                      0.5 * p.time_step * (h.last_external_force[i] + external).dot(particles.velocity[i]);
                  h.last_external_force[i] = external;
                });
+  if (!acts)
+    h.last_external_force.clear();
 }
 
 void Simulation::rest()
@@ -287,7 +289,7 @@ GrainEnergy Simulation::energy() const
     if (h.external_work.empty())
       continue;
     e.external_work += h.external_work[i];
-    if (!particles.external_force.empty())
+    if (!particles.external_force.empty() && !h.last_external_force.empty())
       e.external_work += 0.5 * dt * (h.last_external_force[i] + particles.external_force[i]).dot(v);
   }
   for (const auto &stored : {pairs.total_energy(), wall_contacts.total_energy()})
