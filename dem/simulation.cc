@@ -195,11 +195,11 @@ void Simulation::sum_contact_forces()
   parallel_for(particles.size(),
                [&](const std::size_t i)
                {
-                 Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-                 pairs.add_resultants(static_cast<std::int32_t>(i), force, torque);
-                 wall_contacts.add_resultants(static_cast<std::int32_t>(i), force, torque);
-                 particles.force[i] = force;
-                 particles.torque[i] = torque;
+                 GrainLoad load;
+                 pairs.add_resultants(static_cast<std::int32_t>(i), load);
+                 wall_contacts.add_resultants(static_cast<std::int32_t>(i), load);
+                 particles.force[i] = load.force.head<3>();
+                 particles.torque[i] = load.torque.head<3>();
                });
 }
 

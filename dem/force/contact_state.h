@@ -52,14 +52,17 @@ template <class Real>
 struct SphereContactState
 {
   ContactForces<Real> forces;
-  Real overlap;                                ///< [m], > 0
+  Real root_overlap;                           ///< square root of the overlap [m^0.5]
   Real normal_stiffness, tangential_stiffness; ///< as in HertzMindlin
   Real reduced_mass, weight;
+  Real radius_sum, radius_difference; ///< r1 + r2, r1 - r2 [m]
+
+  Real overlap() const { return root_overlap * root_overlap; }
 
   static SphereContactState idle()
   {
     const Real nought(0.), one(1.);
-    return {{Vector3<Real>(nought, nought, nought), nought}, one, one, one, one, nought};
+    return {{Vector3<Real>(nought, nought, nought), nought}, one, one, one, one, nought, one, nought};
   }
 };
 
@@ -82,9 +85,9 @@ inline ContactEnergy stored_energy(const ContactState<double> &s)
 
 inline ContactEnergy stored_energy(const SphereContactState<double> &s)
 {
-  const double root = std::sqrt(s.overlap);
-  return {s.weight * 0.4 * s.normal_stiffness * root * s.overlap * s.overlap,
-          s.weight * RoundStiffness<double>{s.tangential_stiffness}.energy(s.forces.tangential) / root};
+  const double overlap = s.overlap();
+  return {s.weight * 0.4 * s.normal_stiffness * s.root_overlap * overlap * overlap,
+          s.weight * RoundStiffness<double>(s.tangential_stiffness).energy(s.forces.tangential) / s.root_overlap};
 }
 
 /// Losses when a contact is forgotten: what its tangential spring still held counts as lost by friction.

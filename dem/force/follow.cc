@@ -1,5 +1,7 @@
 #include "dem/force/follow.h"
 
+#include "dem/force/follow_spheres.h"
+
 namespace bergamo::dem
 {
 namespace
@@ -22,8 +24,10 @@ math::Mask<Pack> follow_block(ContactStore<ContactState> &store, const std::size
   ContactState<Pack> &state = store.blocks[block];
   const PairMotion<Pack> motion = motion_of(store, block, particles, time_step);
   const Followed<Pack> followed = follow(state, motion, law, losses);
-  store_resultants<Pack>(followed.force, state.point, motion.half_line,
-                         [&](const int lane) { return &store.resultant[block * pack_width + lane]; });
+  const Vector3<Pack> &force = followed.force;
+  store_resultants<Pack>(force, (motion.half_line + state.point).cross(force),
+                         (motion.half_line - state.point).cross(force),
+                         [&](const int lane) -> Resultant & { return store.resultant[block * pack_width + lane]; });
   return followed.is_due;
 }
 
@@ -31,31 +35,8 @@ math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, const std
                               const Particles &particles, const ContactLaw &law, const double time_step,
                               Losses<Pack> &losses)
 {
-  SphereContactState<Pack> &state = store.blocks[block];
-  const PairMotion<Pack> motion = motion_of(store, block, particles, time_step);
-  const auto radius = [&](const std::vector<std::int32_t> &grain)
-  {
-    return math::generate<Pack>([&](const int lane)
-                                { return particles.bounding_radius[grain[block * pack_width + lane]]; });
-  };
-  const SphereGeometry<Pack> g(motion.half_line, radius(store.first), radius(store.second));
-  const auto is_apart = g.overlap <= 0.;
-  const Pack overlap = math::select(is_apart, state.overlap, g.overlap);
-
-  ContactForces<Pack> forces = state.forces;
-  forces.tangential = turn_force(forces.tangential, g.normal, motion.turn_about(g.normal));
-  Losses<Pack> lost;
-  advance_forces(law, g.normal, state.normal_stiffness, RoundStiffness<Pack>{state.tangential_stiffness},
-                 state.reduced_mass, overlap, state.overlap, motion.displacement(g.point), time_step, forces, lost);
-  losses.friction += math::select(is_apart, Pack(0.), Pack(state.weight * lost.friction));
-  losses.viscous += math::select(is_apart, Pack(0.), Pack(state.weight * lost.viscous));
-  store_resultants<Pack>(forces.on_body1(g.normal) * state.weight, g.point, motion.half_line,
-                         [&](const int lane) { return &store.resultant[block * pack_width + lane]; });
-
-  state.overlap = overlap;
-  state.forces.normal = math::select(is_apart, state.forces.normal, forces.normal);
-  state.forces.tangential = math::select<Pack>(is_apart, state.forces.tangential, forces.tangential);
-  return is_apart;
+  return follow(store.blocks[block], motion_of(store, block, particles, time_step), law, losses,
+                [&](const int lane) -> Resultant & { return store.resultant[block * pack_width + lane]; });
 }
 
 } // namespace bergamo::dem

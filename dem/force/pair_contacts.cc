@@ -2,6 +2,7 @@
 
 #include "dem/core/parallel.h"
 #include "dem/force/follow.h"
+#include "dem/force/follow_spheres.h"
 #include "dem/force/search_contacts.h"
 #include "dem/neighbour/cell_grid.h"
 
@@ -50,7 +51,8 @@ PairMotion<double> motion_of(const Particles &p, const std::int32_t i, const std
 
 SphereGeometry<double> sphere_geometry(const Particles &p, const std::int32_t i, const std::int32_t j)
 {
-  return {0.5 * (p.position[j] - p.position[i]), p.bounding_radius[i], p.bounding_radius[j]};
+  return {0.5 * (p.position[j] - p.position[i]), p.bounding_radius[i] + p.bounding_radius[j],
+          p.bounding_radius[i] - p.bounding_radius[j]};
 }
 
 double sphere_weight(const Particles &p, const std::int32_t i, const std::int32_t j)
@@ -63,24 +65,20 @@ double sphere_weight(const Particles &p, const std::int32_t i, const std::int32_
 NewSphereContact begin_spheres(const Particles &p, const std::int32_t pair, const std::int32_t i, const std::int32_t j,
                                const ContactLaw &law, const double time_step, ContactLosses &losses)
 {
-  const PairMotion<double> motion = motion_of(p, i, j, time_step);
-  const SphereGeometry<double> g = sphere_geometry(p, i, j);
-  const double curvature = 0.5 * (1. / p.bounding_radius[i] + 1. / p.bounding_radius[j]);
+  const double radius1 = p.bounding_radius[i], radius2 = p.bounding_radius[j];
+  const double curvature = 0.5 * (1. / radius1 + 1. / radius2);
   const HertzMindlin<double> stiffness = hertz_mindlin(curvature, curvature, law.elastic);
   SphereContactState<double> s = SphereContactState<double>::idle();
-  s.overlap = g.overlap;
+  s.root_overlap = 0.;
   s.normal_stiffness = stiffness.normal;
   s.tangential_stiffness = stiffness.tangential_major;
   s.reduced_mass = 1. / (1. / p.mass[i] + 1. / p.mass[j]);
   s.weight = sphere_weight(p, i, j);
-  Losses<double> lost;
-  advance_forces(law, g.normal, s.normal_stiffness, RoundStiffness<double>{s.tangential_stiffness}, s.reduced_mass,
-                 s.overlap, 0., motion.displacement(g.point), time_step, s.forces, lost);
-  losses.friction += s.weight * lost.friction;
-  losses.viscous += s.weight * lost.viscous;
+  s.radius_sum = radius1 + radius2;
+  s.radius_difference = radius1 - radius2;
   NewSphereContact contact{pair, s, {}};
-  store_resultants<double>(s.forces.on_body1(g.normal) * s.weight, g.point, motion.half_line,
-                           [&](int) { return &contact.resultant; });
+  follow(contact.state, motion_of(p, i, j, time_step), law, losses,
+         [&](int) -> Resultant & { return contact.resultant; });
   return contact;
 }
 
@@ -274,16 +272,12 @@ void PairContacts::renew_incidence(const Particles &p)
   incidence.is_current = true;
 }
 
-void PairContacts::add_resultants(const std::int32_t i, Vec3 &force, Vec3 &torque) const
+void PairContacts::add_resultants(const std::int32_t i, GrainLoad &load) const
 {
   for (auto k = incidence.row[i]; k < incidence.row[i + 1]; ++k)
   {
     const std::int32_t entry = incidence.entries[k];
-    // Without branches: which side of a contact a grain is on cannot be predicted.
-    const int side = entry & 1;
-    const Resultant &r = (entry & 2 ? spheres.resultant : grains.resultant)[entry >> 2];
-    force += (1. - 2. * side) * r.force;
-    torque += r.torque(side);
+    load.add((entry & 2 ? spheres.resultant : grains.resultant)[entry >> 2], entry & 1);
   }
 }
 
@@ -444,7 +438,7 @@ std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
     s.point = g.point;
     s.major_axis = tangent_frame(g.normal).col(0);
     s.forces = sphere.forces;
-    s.overlap = sphere.overlap;
+    s.overlap = sphere.overlap();
     s.stiffness = {sphere.normal_stiffness, sphere.tangential_stiffness, sphere.tangential_stiffness};
     s.reduced_mass = sphere.reduced_mass;
     s.weight = sphere.weight;

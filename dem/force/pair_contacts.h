@@ -70,8 +70,8 @@ struct PairContacts
   void compute(const Particles &particles, const ContactLaw &law, const ContactParameters &parameters, double time_step,
                PhaseTimes &times);
 
-  /// Adds the contact forces of grain i [N, N m], in a fixed order.
-  void add_resultants(std::int32_t i, Vec3 &force, Vec3 &torque) const;
+  /// Adds what the contacts give to grain i, in a fixed order.
+  void add_resultants(std::int32_t i, GrainLoad &load) const;
 
   /// Has every contact searched anew at the next step, e.g. after weights of grains have been changed.
   void refresh(const Particles &particles);

@@ -4,8 +4,6 @@
 #include "dem/force/resultant.h"
 #include "dem/state/particles.h"
 
-#include <numbers>
-
 namespace bergamo::dem
 {
 
@@ -46,24 +44,26 @@ struct PairMotion
   Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin_sum) * Real(0.5 * time_step); }
 
   /// Bound of the relative motion at a contact with the normal held [m]: the displacement plus both rotations, each
-  /// over the given radius; a + b <= sqrt(2 (a^2 + b^2)) saves a root.
+  /// over the given radius, in the norm of the sum of magnitudes, which takes no roots.
   Real bound(const Vector3<Real> &displacement, const Real &radius) const
   {
-    const Real arm = radius * Real(time_step);
-    const Real turns = spin_sum.squaredNorm() + spin_difference.squaredNorm(); // twice the sum of both squares
-    return math::sqrt(displacement.squaredNorm() + arm * arm * turns) * Real(std::numbers::sqrt2);
+    Real path(0.), turns(0.);
+    for (int d = 0; d < 3; ++d)
+    {
+      path = path + math::abs(displacement[d]);
+      turns = turns + math::max(math::abs(spin_sum[d]), math::abs(spin_difference[d])); // |w1| + |w2|
+    }
+    return path + radius * turns * Real(time_step);
   }
 };
 
-/// Writes what contacts give to their bodies. @param target target(lane): Resultant & or nothing to write (nullptr)
+/// Writes what contacts give to their bodies. @param target target(lane): where to
 template <class Real, class Target>
-void store_resultants(const Vector3<Real> &force, const Vector3<Real> &point, const Vector3<Real> &half_line,
+void store_resultants(const Vector3<Real> &force, const Vector3<Real> &torque1, const Vector3<Real> &torque2,
                       const Target &target)
 {
-  const Vector3<Real> torque1 = (half_line + point).cross(force), torque2 = (half_line - point).cross(force);
   for (int lane = 0; lane < width<Real>; ++lane)
-    if (Resultant *r = target(lane))
-      *r = {math::lane<Real>(torque1, lane), math::lane<Real>(force, lane), math::lane<Real>(torque2, lane)};
+    target(lane) = {math::lane<Real>(force, lane), math::lane<Real>(torque1, lane), math::lane<Real>(torque2, lane)};
 }
 
 } // namespace bergamo::dem

@@ -5,17 +5,38 @@
 namespace bergamo::dem
 {
 
+/// Three components and one unused: sums of many run in one register.
+using Vec4 = Eigen::Vector4d;
+
 /// What one contact gives to its bodies: the force on body 1 (body 2 gets the opposite) and both torques about the
-/// centres, with the contact's weight. Every contact owns one, so that forces need neither locks nor atomics. Either
-/// body reads six numbers in a row.
+/// centres, with the contact's weight. Every contact owns one, so that forces need neither locks nor atomics.
 struct Resultant
 {
-  Vec3 torque1 = Vec3::Zero(); ///< [N m]
-  Vec3 force = Vec3::Zero();   ///< [N]
-  Vec3 torque2 = Vec3::Zero(); ///< [N m]
+  Vec4 force = Vec4::Zero();   ///< [N]
+  Vec4 torque1 = Vec4::Zero(); ///< [N m]
+  Vec4 torque2 = Vec4::Zero(); ///< [N m]
 
-  /// @param side 0 for body 1, 1 for body 2
-  const Vec3 &torque(const int side) const { return side ? torque2 : torque1; }
+  Resultant() = default;
+  Resultant(const Vec3 &force, const Vec3 &torque1, const Vec3 &torque2)
+      : force(force[0], force[1], force[2], 0.), torque1(torque1[0], torque1[1], torque1[2], 0.),
+        torque2(torque2[0], torque2[1], torque2[2], 0.)
+  {
+  }
+};
+
+/// Force and torque on one grain.
+struct GrainLoad
+{
+  Vec4 force = Vec4::Zero();  ///< [N]
+  Vec4 torque = Vec4::Zero(); ///< about the centre [N m]
+
+  /// @param side 0 if the grain is body 1 of the contact, 1 if it is body 2; without branches, as it cannot be
+  /// predicted
+  void add(const Resultant &r, const int side)
+  {
+    force += (1. - 2. * side) * r.force;
+    torque += *(side ? &r.torque2 : &r.torque1);
+  }
 };
 
 } // namespace bergamo::dem

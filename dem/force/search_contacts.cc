@@ -101,7 +101,8 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
   const Vector3<Pack> force =
       advance_contact(s, context.law, old_overlap, motion.displacement(s.point), context.time_step, lost);
   std::array<Resultant, pack_width> resultant;
-  store_resultants<Pack>(force, s.point, motion.half_line, [&](const int lane) { return &resultant[lane]; });
+  store_resultants<Pack>(force, (motion.half_line + s.point).cross(force), (motion.half_line - s.point).cross(force),
+                         [&](const int lane) -> Resultant & { return resultant[lane]; });
   for (int lane = 0; lane < n; ++lane)
   {
     const ContactSearch &search = searches[lane];

@@ -32,7 +32,9 @@ struct WallMotion
   Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin) * Real(0.5 * time_step); }
   Real bound(const Vector3<Real> &displacement, const Real &radius) const
   {
-    return displacement.norm() + radius * spin.norm() * Real(time_step);
+    const auto size = [](const Vector3<Real> &v) -> Real
+    { return math::abs(v[0]) + math::abs(v[1]) + math::abs(v[2]); };
+    return size(displacement) + radius * size(spin) * Real(time_step);
   }
 };
 
@@ -77,7 +79,7 @@ void locate(const Particles &p, const std::int32_t i, const PlaneWall &wall, con
   s.reduced_mass = p.mass[i]; // the wall is infinitely heavy
   losses.curvature += curvature_work(before, s, old_overlap);
   const Vec3 force = advance_contact(s, law, old_overlap, motion.displacement(s.point), time_step, losses);
-  l.resultant = {s.point.cross(force), force, Vec3::Zero()};
+  l.resultant = {force, s.point.cross(force), Vec3::Zero()};
 }
 
 } // namespace
@@ -157,9 +159,10 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
             time_step};
         ContactState<Pack> &state = touching.blocks[block];
         const Followed<Pack> followed = follow(state, motion, law, lost);
-        const Vector3<Pack> no_line(0., 0., 0.);
-        store_resultants<Pack>(followed.force, state.point, no_line,
-                               [&](const int lane) { return &touching.resultant[block * pack_width + lane]; });
+        const Vector3<Pack> nothing(0., 0., 0.);
+        store_resultants<Pack>(followed.force, state.point.cross(followed.force), nothing,
+                               [&](const int lane) -> Resultant &
+                               { return touching.resultant[block * pack_width + lane]; });
         return followed.is_due;
       });
 
@@ -212,19 +215,16 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
     old_force.push_back(std::exchange(w.force, Vec3::Zero()));
   for (std::size_t k = 0; k < size(); ++k)
     if (is_touching(k))
-      walls[wall[k]].force -= touching.resultant[slot[k]].force;
+      walls[wall[k]].force -= touching.resultant[slot[k]].force.head<3>();
   for (std::size_t w = 0; w < walls.size(); ++w)
     walls[w].work -= 0.5 * time_step * (old_force[w] + walls[w].force).dot(walls[w].velocity);
 }
 
-void WallContacts::add_resultants(const std::int32_t i, Vec3 &force, Vec3 &torque) const
+void WallContacts::add_resultants(const std::int32_t i, GrainLoad &load) const
 {
   for (auto k = row[i]; k < row[i + 1]; ++k)
     if (is_touching(k))
-    {
-      force += touching.resultant[slot[k]].force;
-      torque += touching.resultant[slot[k]].torque1;
-    }
+      load.add(touching.resultant[slot[k]], 0);
 }
 
 void WallContacts::refresh()

@@ -45,8 +45,8 @@ struct WallContacts
   void compute(const Particles &particles, std::vector<PlaneWall> &walls, const ContactLaw &law,
                const ContactParameters &parameters, double time_step);
 
-  /// Adds the wall forces of grain i [N, N m], in a fixed order.
-  void add_resultants(std::int32_t i, Vec3 &force, Vec3 &torque) const;
+  /// Adds what the walls give to grain i, in a fixed order.
+  void add_resultants(std::int32_t i, GrainLoad &load) const;
 
   /// Has every contact searched anew at the next step.
   void refresh();
