@@ -201,13 +201,21 @@ private:
 
     // A success may lengthen the next step. A failure shortens this one: where the slope has turned, to where the model
     // with that curvature is least, at most a share of the step; otherwise to a quarter.
-    const TangentFrameOf<Real> frame = tangent_frame(best.c); // of failures: unchanged
-    const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1), change = tangential - trial_tangential;
     const Mask is_curved = trial_slope > Real(0.5) * slope; // at least half of the slope gone
-    const Inverse learnt = learn(inverse, t1.dot(step), t2.dot(step), t1.dot(change), t2.dot(change));
-    const Inverse fresh = newton_inverse();
-    for (auto entry : {&Inverse::m11, &Inverse::m22, &Inverse::m12})
-      inverse.*entry = select(is_better, fresh.*entry, select(is_curved, Real(learnt.*entry), Real(inverse.*entry)));
+    const Mask learns = !is_better && is_curved;
+    const auto replace = [&](const Mask &mask, const Inverse &other)
+    {
+      for (auto entry : {&Inverse::m11, &Inverse::m22, &Inverse::m12})
+        inverse.*entry = select(mask, other.*entry, inverse.*entry);
+    };
+    if (math::any(learns))
+    {
+      const TangentFrameOf<Real> frame = tangent_frame(best.c);
+      const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1), change = tangential - trial_tangential;
+      replace(learns, learn(inverse, t1.dot(step), t2.dot(step), t1.dot(change), t2.dot(change)));
+    }
+    if (math::any(is_better))
+      replace(is_better, newton_inverse());
     longest = select(is_better, min(Real(longest_step), max(longest, Real(growth) * length)),
                      Real(length * select(is_curved, Real(0.7), Real(0.25))));
     tangential = select<Real>(is_better, trial_tangential, tangential);
