@@ -172,7 +172,7 @@ Tally search_alone(const std::vector<MadePair> &pairs)
     judge(pairs[i], {g.normal, g.overlap, g.arm1, g.status == ContactStatus::undecided}, t);
     t.evaluations.add(g.n_evaluations);
     t.long_ones += g.n_evaluations >= 20;
-    t.elsewhere += g.n_evaluations > 128; // the global search alone takes more
+    t.elsewhere += g.n_evaluations > 256; // the global search alone takes more
   }
   return t;
 }

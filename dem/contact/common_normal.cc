@@ -51,7 +51,7 @@ std::array<Vec3, n> spread_directions()
 /// Search from many starts, in packs of directions; the converged minimum with the smallest phi wins.
 ContactGeometry search_globally(const BodyPose &body1, const BodyPose &body2, const ContactGeometry &first)
 {
-  constexpr int n_directions = 128, n_starts = 16;
+  constexpr int n_directions = 256, n_starts = 32;
   static_assert(n_starts % pack_width == 0 && n_directions % pack_width == 0);
   static const auto directions = spread_directions<n_directions>();
   const Pose<Pack> bodies1 = in_every_lane(body1), bodies2 = in_every_lane(body2);

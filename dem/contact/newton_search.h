@@ -85,9 +85,11 @@ public:
   {
     const auto smallest = [](const SupportShape<Real> &s) { return math::min(math::min(s.r1, s.r2), s.r3); };
     length_scale = math::min(smallest(body1.shape), smallest(body2.shape));
+    sharpest = math::max(math::max(body1.shape.q1, body1.shape.q2), math::max(body2.shape.q1, body2.shape.q2));
     longest = Real(longest_step);
     tangential = best.tangential_gap();
-    step = newton_step();
+    inverse = newton_inverse();
+    step = model_step();
     decide();
   }
 
@@ -101,6 +103,7 @@ public:
 
   Evaluation<Real> best; ///< the least phi found
   Real length_scale;     ///< smallest half-axis of both bodies [m]
+  Real sharpest;         ///< largest dual exponent q of both bodies
   Real low;              ///< smaller eigenvalue of the model's Hessian at best; negative at a saddle or maximum [m]
   Mask is_open;          ///< not decided yet: the others are either separated (phi < 0) or at a minimum
   int n_evaluations = 1; ///< of the lane that took longest
@@ -114,20 +117,47 @@ private:
   static constexpr double max_widenings = 3.;
   static constexpr double wide_enough = 0.2; // tangential part over width of the gap
 
-  /// Step of the Newton model on the tangent plane, shifted until the model is convex: always downhill.
-  Vector3<Real> newton_step()
+  /// Inverse of the model's Hessian in tangent_frame(best.c): symmetric, positive definite [1/m]. The inverse, because
+  /// beside the huge radius of a flat face it keeps the other one; the Hessian itself would lose it in rounding.
+  struct Inverse
   {
-    using math::abs, math::max, math::min, math::select, math::sqrt;
-    const TangentFrameOf<Real> frame = tangent_frame(best.c);
-    const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1);
-    const Real g1 = -t1.dot(best.gap), g2 = -t2.dot(best.gap);
+    Real m11, m22, m12;
+  };
+
+  /// Of the Newton model at best, shifted until it is convex: its step is always downhill.
+  Inverse newton_inverse()
+  {
+    using math::abs, math::max, math::select;
     const SphereHessian<Real> b(best);
     low = b.low;
     const Real least = Real(least_curvature) * length_scale;
     const Real shift = select(b.low < least, Real(max(least, abs(b.low)) - b.low), Real(0.));
-    const Real b11 = b.b11 + shift, b22 = b.b22 + shift, det = b11 * b22 - b.b12 * b.b12;
-    Real s1 = (g2 * b.b12 - g1 * b22) / det, s2 = (g1 * b.b12 - g2 * b11) / det;
-    const Real length = sqrt(s1 * s1 + s2 * s2);
+    const Real b11 = b.b11 + shift, b22 = b.b22 + shift;
+    const Real factor = Real(1.) / (b11 * b22 - b.b12 * b.b12);
+    return {b22 * factor, b11 * factor, -b.b12 * factor};
+  }
+
+  /// The inverse with the change of the gradient, y, over a step s that went too far, learnt (BFGS: Nocedal & Wright
+  /// 2006, eq. 6.17). At the kink of a flat face the slope jumps from one side to the other: the model takes the jump's
+  /// mean curvature in that direction alone, so that along the kink the search goes on with full steps.
+  static Inverse learn(const Inverse &m, const Real &s1, const Real &s2, const Real &y1, const Real &y2)
+  {
+    const Real rho = Real(1.) / (s1 * y1 + s2 * y2);
+    const Real u1 = m.m11 * y1 + m.m12 * y2, u2 = m.m12 * y1 + m.m22 * y2;
+    const Real factor = rho * (Real(1.) + rho * (y1 * u1 + y2 * u2));
+    return {m.m11 + factor * s1 * s1 - Real(2.) * rho * s1 * u1, m.m22 + factor * s2 * s2 - Real(2.) * rho * s2 * u2,
+            m.m12 + factor * s1 * s2 - rho * (s1 * u2 + s2 * u1)};
+  }
+
+  /// Step of the model, no longer than `longest`.
+  Vector3<Real> model_step() const
+  {
+    using math::select;
+    const TangentFrameOf<Real> frame = tangent_frame(best.c);
+    const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1);
+    const Real g1 = t1.dot(best.gap), g2 = t2.dot(best.gap); // minus the gradient
+    Real s1 = inverse.m11 * g1 + inverse.m12 * g2, s2 = inverse.m12 * g1 + inverse.m22 * g2;
+    const Real length = math::sqrt(s1 * s1 + s2 * s2);
     const Real factor = select(length <= longest, Real(1.), Real(longest / length));
     const Mask is_finite = length < Real(1e300);
     s1 = select(is_finite, Real(s1 * factor), Real(0.));
@@ -170,15 +200,31 @@ private:
                                        (!was_apart && is_downhill && trial_slope < Real(-0.5) * slope));
     const Real length = step.norm();
     best.replace_where(is_better, trial);
-    tangential = select<Real>(is_better, trial_tangential, tangential);
     widenings = widenings + select(was_apart, select(is_better, Real(1.), Real(max_widenings)), Real(0.));
 
-    // A success may lengthen the next step. A failure shortens this one to where both slopes say that phi is least;
-    // near the kink of a flat face Newton's step is too long by 1/(q - 1): remember what was found.
-    const Real secant = slope / (slope - trial_slope);
-    const Real share = select(secant == secant, math::clamp(secant, Real(0.05), Real(0.7)), Real(0.25));
-    longest = select(is_better, min(Real(longest_step), max(longest, Real(growth) * length)), Real(length * share));
-    step = select<Real>(is_better, newton_step(), step * share);
+    // A success may lengthen the next step. A failure shortens this one: where the slope has turned, to where the model
+    // with that curvature is least, at most a share of the step; otherwise to a quarter.
+    const Mask is_curved = trial_slope > Real(0.5) * slope; // at least half of the slope gone
+    const Mask learns = !is_better && is_curved;
+    const auto replace = [&](const Mask &mask, const Inverse &other)
+    {
+      for (auto entry : {&Inverse::m11, &Inverse::m22, &Inverse::m12})
+        inverse.*entry = select(mask, other.*entry, inverse.*entry);
+    };
+    if (math::any(learns))
+    {
+      const TangentFrameOf<Real> frame = tangent_frame(best.c);
+      const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1), change = tangential - trial_tangential;
+      replace(learns, learn(inverse, t1.dot(step), t2.dot(step), t1.dot(change), t2.dot(change)));
+    }
+    if (math::any(is_better))
+      replace(is_better, newton_inverse());
+    longest = select(is_better, min(Real(longest_step), max(longest, Real(growth) * length)),
+                     Real(length * select(is_curved, Real(0.7), Real(0.25))));
+    tangential = select<Real>(is_better, trial_tangential, tangential);
+    step = model_step();
+    // Near a kink Newton's step is too long by 1/(q - 1) once more after the next success: remember what was found.
+    longest = select(is_better, longest, math::clamp(Real(step.norm()), Real(length * Real(0.05)), longest));
     decide();
   }
 
@@ -203,7 +249,8 @@ private:
   Pose<Real> body1, body2;
   Vector3<Real> tangential; ///< gap at best
   Vector3<Real> step;       ///< next to be tried
-  Real longest;             ///< step allowed [rad]
+  Inverse inverse;
+  Real longest; ///< step allowed [rad]
   Real widenings = Real(0.);
 };
 
@@ -211,16 +258,18 @@ private:
 ///  * the overlap is so deep that phi may have several;
 ///  * or it is not small beside the smaller radius of curvature rho = low + phi of both surfaces together: the ball of
 ///    radius phi inside the Minkowski sum of the bodies touches its boundary near a ridge, and may cross that on the
-///    other side. Of 4 million random pairs with exponents in (0.3, 1.7) 53 had such a second, lower minimum, all of
-///    them with low < 6 phi; the criterion takes 0.3 % of all pairs of that kind, 1 in 10^5 with exponents in
-///    (0.7, 1.3). A saddle (low < 0), where a symmetric pair may end, is among them.
+///    other side. Away from a ridge rho grows over angles of about 1/q, q = 2/(2 - eps) the dual exponent, so the limit
+///    goes with the sharpest one. Of 4 million random pairs with exponents in (0.3, 1.7) 53 had a second, lower
+///    minimum, all of them with low < 6 phi and q = 2 to 6; with exponents up to 1.98 there are some at low = 550 phi.
+///    A saddle (low < 0), where a symmetric pair may end, is among them.
 template <class Real>
 math::Mask<Real> is_suspicious(const NewtonSearch<Real> &search)
 {
   constexpr double deep_overlap = 0.02; // over the smallest half-axis
-  constexpr double near_ridge = 32.;    // low over phi
+  constexpr double near_ridge = 12.;    // low over phi and the sharpest dual exponent
   const Real &phi = search.best.phi;
-  return phi > Real(0.) && (phi > Real(deep_overlap) * search.length_scale || search.low < Real(near_ridge) * phi);
+  return phi > Real(0.) &&
+         (phi > Real(deep_overlap) * search.length_scale || search.low < Real(near_ridge) * search.sharpest * phi);
 }
 
 /// Whether a touching pair ended at a saddle of phi: only there by symmetry, and not where the contact is.

@@ -7,8 +7,10 @@
 #include <boost/math/special_functions/ellint_2.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <random>
+#include <vector>
 
 using namespace bergamo::dem;
 
@@ -296,4 +298,149 @@ TEST_CASE("radii of curvature are kept within their bounds")
   const Mat3 usual = Vec3(0.5, 7., 0.).asDiagonal();
   CHECK(relative(curvature_at(Vec3::UnitZ(), usual, bounds).a, 0.5 / 7.) < 1e-13);
   CHECK(relative(curvature_at(Vec3::UnitZ(), usual, bounds).b, 0.5 / 0.5) < 1e-13);
+}
+
+TEST_CASE("the table against the standard library's integrals over the range where those are accurate")
+{
+  // From e = sqrt(1 - 1/kappa^2) the integrals lose a digit of 1/kappa^2 each: 1e-10 at kappa = 1000. K - E and B lose
+  // e^2 of libstdc++'s 1e-12: 1e-9 at kappa = 1.001.
+  double worst_force = 0., worst_axis = 0., worst_compliance = 0.;
+  for (double kappa = 1.001; kappa < 1000.; kappa *= 1.003)
+  {
+    const double e2 = (kappa - 1.) * (kappa + 1.) / (kappa * kappa), modulus = std::sqrt(e2);
+    const double k = std::comp_ellint_1(modulus), e = std::comp_ellint_2(modulus);
+    const double d = (k - e) / e2, b = (e - (1. - e2) * k) / e2;
+    const double log_ratio = std::log(kappa * kappa * b / d);
+    const EllipseShape<double> shape = ellipse_table()(log_ratio);
+    worst_force = std::max(worst_force, relative(shape.force, kappa * std::sqrt(e / (k * k * k))));
+    worst_axis = std::max(worst_axis, relative(shape.semi_axis, std::sqrt(d * (1. + std::exp(log_ratio)) / k)));
+    worst_compliance = std::max({worst_compliance, relative(shape.k, k), relative(shape.bm, b), relative(shape.d, d)});
+  }
+  CAPTURE(worst_force, worst_axis, worst_compliance);
+  CHECK(worst_force < 1e-8);
+  CHECK(worst_axis < 1e-8);
+  CHECK(worst_compliance < 1e-8);
+}
+
+TEST_CASE("tangential over normal compliance of elliptic contacts")
+{
+  // Mindlin (1949), Deresiewicz (1957), equal bodies. Circle: (2 - nu) / (2 (1 - nu)). Without lateral contraction: 1
+  // for every ellipse. Long ellipse: 1/(1 - nu) along it and 1 across it (plane strain), reached with the logarithm of
+  // the axes' ratio: the rest is nu/(1 - nu) times B/K, and K - 1 < D < K, 0 < B <= 1. In between both rise and fall.
+  for (const double nu : {0., 0.2, 0.35, 0.49})
+  {
+    const Material grain{50e9, nu, 2650.};
+    const ElasticPair pair = elastic_pair(grain, grain);
+    const auto ratios = [&](const double curvature_ratio)
+    {
+      const HertzMindlin<double> law = hertz_mindlin(1., curvature_ratio, pair);
+      return std::pair(1.5 * law.normal / law.tangential_major, 1.5 * law.normal / law.tangential_minor);
+    };
+    const auto [circle_major, circle_minor] = ratios(1.);
+    CHECK(relative(circle_major, (2. - nu) / (2. * (1. - nu))) < 1e-9);
+    CHECK(relative(circle_minor, (2. - nu) / (2. * (1. - nu))) < 1e-9);
+    double last_major = circle_major, last_minor = circle_minor;
+    for (double ratio = 1.1; ratio < 0.9e10; ratio *= 1.7)
+    {
+      const auto [major, minor] = ratios(ratio);
+      CAPTURE(nu, ratio);
+      // Normal and tangential coefficient are each good to 1e-8.
+      if (nu == 0.)
+      {
+        CHECK(relative(major, 1.) < 5e-8);
+        CHECK(relative(minor, 1.) < 5e-8);
+        continue;
+      }
+      CHECK(major > last_major);
+      CHECK(minor < last_minor);
+      const Integrals i(axis_ratio(ratio));
+      const double rest = nu / (1. - nu) * i.b / i.k;
+      CHECK(std::abs(1. / (1. - nu) - major - rest) < 5e-8 / (1. - nu));
+      CHECK(std::abs(minor - 1. - rest) < 5e-8 / (1. - nu));
+      last_major = major;
+      last_minor = minor;
+    }
+  }
+}
+
+TEST_CASE("the law in packs is the law of one contact")
+{
+  // Every lane its own contact; the vector library's logarithm differs by 1 ulp.
+  std::mt19937_64 generator(8);
+  std::uniform_real_distribution<double> log_radius(-3., 3.), angle(-3., 3.);
+  const ElasticPair pair = elastic_pair(soft, hard);
+  for (int i = 0; i < 200; ++i)
+  {
+    std::vector<CurvatureRadii<double>> radii1, radii2;
+    std::vector<Vec3> normal;
+    for (int k = 0; k < pack_width; ++k)
+    {
+      const auto random_radii = [&]() -> CurvatureRadii<double>
+      {
+        const double low = std::exp(log_radius(generator)), high = std::exp(log_radius(generator));
+        const double c = std::cos(angle(generator)), s = std::sqrt(1. - c * c);
+        return {low * c * c + high * s * s, low * s * s + high * c * c, (low - high) * c * s};
+      };
+      radii1.push_back(random_radii());
+      radii2.push_back(random_radii());
+      normal.push_back(Vec3(angle(generator), angle(generator), angle(generator)).normalized());
+    }
+    const auto gather = [](const std::vector<CurvatureRadii<double>> &radii) -> CurvatureRadii<Pack>
+    {
+      return {math::generate<Pack>([&](const int k) { return radii[k].r11; }),
+              math::generate<Pack>([&](const int k) { return radii[k].r22; }),
+              math::generate<Pack>([&](const int k) { return radii[k].r12; })};
+    };
+    const Vector3<Pack> normals = math::generate_vector<Pack>([&](const int k) -> const Vec3 & { return normal[k]; });
+    const CurvatureBounds<double> bounds{0.1, 5.};
+    const CurvatureBounds<Pack> pack_bounds{Pack(0.1), Pack(5.)};
+    const RelativeCurvature<Pack> packed =
+        relative_curvature<Pack>(tangent_frame(normals), gather(radii1), pack_bounds, gather(radii2), pack_bounds);
+    const HertzMindlin<Pack> laws = hertz_mindlin(packed.a, packed.b, pair);
+    for (int k = 0; k < pack_width; ++k)
+    {
+      const RelativeCurvature<double> one =
+          relative_curvature<double>(tangent_frame(normal[k]), radii1[k], bounds, radii2[k], bounds);
+      const HertzMindlin<double> law = hertz_mindlin(one.a, one.b, pair);
+      CHECK(relative(math::lane(packed.a, k), one.a) < 1e-12);
+      CHECK(relative(math::lane(packed.b, k), one.b) < 1e-12);
+      CHECK(relative(math::lane(laws.normal, k), law.normal) < 1e-12);
+      CHECK(relative(math::lane(laws.tangential_major, k), law.tangential_major) < 1e-12);
+      CHECK(relative(math::lane(laws.tangential_minor, k), law.tangential_minor) < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("what the bounds of curvature do to a box-like grain on a plane")
+{
+  // A cube of half-axis 1, tilted: 0 the middle of a face, 45 degrees an edge. Printed: the Hertz coefficient over that
+  // of the sphere of radius 1, (4/3) E*. In the middle of a face both radii take the bound 1/k: the coefficient is
+  // 1/sqrt(k). Along an edge one radius is without bound at any tilt in this plane.
+  const ElasticPair pair = elastic_pair(soft, hard);
+  std::printf("Hertz coefficient of a cube on a plane over the sphere's\n  eps  tilt");
+  const std::vector<double> factors{0.02, 0.05, 0.1, 0.2, 0.5};
+  for (const double factor : factors)
+    std::printf("   k=%.2f", factor);
+  std::printf("\n");
+  for (const double eps : {0.2, 0.3, 0.4})
+    for (const double tilt : {0., 0.1, 1., 5., 20., 45.})
+    {
+      const BodyPose body = make_pose({Vec3::Ones(), eps, eps}, Vec3::Zero(), Quaternion::Identity());
+      const Vec3 n(std::sin(tilt * pi / 180.), 0., std::cos(tilt * pi / 180.));
+      const CurvatureRadii<double> radii = support(body, n).radii;
+      std::printf("%5.1f %5.1f", eps, tilt);
+      std::vector<double> coefficients;
+      for (const double factor : factors)
+      {
+        const auto c = relative_curvature(tangent_frame(n), radii, curvature_bounds(body.shape, factor));
+        coefficients.push_back(hertz_mindlin(c.a, c.b, pair).normal / (4. / 3. * pair.effective_modulus));
+        std::printf(" %8.3f", coefficients.back());
+        if (tilt == 0.)
+          CHECK(relative(coefficients.back(), 1. / std::sqrt(factor)) < 1e-8);
+        // Bounds [k, 1/k]: between those of the two spheres.
+        CHECK(coefficients.back() < 1.0001 / std::sqrt(factor));
+        CHECK(coefficients.back() > 0.9999 * std::sqrt(factor));
+      }
+      std::printf("\n");
+    }
 }
