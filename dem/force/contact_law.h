@@ -78,7 +78,8 @@ void advance_forces(const ContactLaw &law, const Vector3<Real> &normal, const Re
 
   const Real elastic_force = normal_stiffness * root * overlap;
   const Real damping = normal_damping(law, Real(Real(1.5) * normal_stiffness * root), reduced_mass);
-  const Real normal_force = math::max(Real(elastic_force + damping * approach * Real(1. / time_step)), Real(0.));
+  const Real pushing = elastic_force + damping * approach * Real(1. / time_step);
+  const Real normal_force = math::select(pushing <= Real(0.), Real(0.), pushing); // a NaN stays one and stops the run
   const Real old_elastic = Real(0.4) * normal_stiffness * old_root * old_overlap * old_overlap;
   losses.viscous +=
       Real(0.5) * (forces.normal + normal_force) * approach - (Real(0.4) * elastic_force * overlap - old_elastic);
