@@ -68,8 +68,9 @@ Simulation::Simulation(const SimulationParameters &parameters, Particles new_par
   walls = std::move(new_walls);
   if (particles.size() == 0)
     throw ConfigError("a simulation needs at least one grain");
-  const double mean_radius =
-      std::accumulate(particles.bounding_radius.begin(), particles.bounding_radius.end(), 0.) / particles.size();
+  std::vector<double> radii = particles.bounding_radius;
+  std::sort(radii.begin(), radii.end()); // so that the sum does not depend on the order in which the grains came
+  const double mean_radius = std::accumulate(radii.begin(), radii.end(), 0.) / particles.size();
   h.verlet_distance = p.verlet_distance * mean_radius;
   index_of_id.resize(particles.size());
   sort_by_place();
@@ -209,7 +210,13 @@ void Simulation::integrate()
   const double dt = p.time_step;
   if (!particles.external_force.empty() || !h.last_external_force.empty())
     book_external_work();
-  const bool is_finite = advance(particles, p.gravity, dt);
+  if (!advance(particles, p.gravity, dt))
+    report_divergence();
+  const ContactLosses &lost = pairs.losses, &wall_lost = wall_contacts.losses;
+  if (!std::isfinite(lost.friction + lost.viscous + lost.curvature + wall_lost.friction + wall_lost.viscous +
+                     wall_lost.curvature))
+    throw RunError("the run diverged: the energy lost in contacts is not finite at time " + std::to_string(time) +
+                   " s; choose a smaller time step (stable estimate in summary.json) or start from the last snapshot");
   for (PlaneWall &wall : walls)
   {
     wall.point += dt * wall.velocity;
@@ -217,8 +224,6 @@ void Simulation::integrate()
   }
   time += dt;
   ++n_steps;
-  if (!is_finite)
-    check_finite();
   watch.lap(times.motion);
 }
 
@@ -319,14 +324,45 @@ void Simulation::check_finite() const
 {
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
-        !particles.angular_momentum[i].allFinite() || !particles.orientation[i].coeffs().allFinite())
+        !particles.angular_momentum[i].allFinite() || !particles.angular_velocity[i].allFinite() ||
+        !particles.orientation[i].coeffs().allFinite())
+      throw_diverged(i, "whose state is not finite");
+}
+
+void Simulation::report_divergence() const
+{
+  check_finite();
+  // All states were finite: forces are not.
+  std::size_t worst = 0;
+  double largest = -1.;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    Vec3 force = particles.force[i];
+    if (!particles.external_force.empty())
+      force += particles.external_force[i];
+    if (!force.allFinite() || !particles.torque[i].allFinite())
+      throw_diverged(i, "on which the force is not finite");
+    const double acceleration = force.stableNorm() / particles.mass[i];
+    if (acceleration > largest)
     {
-      std::ostringstream message;
-      message << "the run diverged: grain " << particles.id[i] << " at (" << particles.position[i].transpose()
-              << ") m is not finite at time " << time << " s, step " << n_steps
-              << "; choose a smaller time step (stable estimate in summary.json) or start from the last snapshot";
-      throw RunError(message.str());
+      largest = acceleration;
+      worst = i;
     }
+  }
+  throw_diverged(worst, "on which the force is too large");
+}
+
+void Simulation::throw_diverged(const std::size_t i, const char *trouble) const
+{
+  std::ostringstream message;
+  message << "the run diverged: grain " << particles.id[i];
+  if (particles.position[i].allFinite())
+    message << " at (" << particles.position[i].transpose() << ") m";
+  else if (i < h.position_when_built.size())
+    message << ", last seen at (" << h.position_when_built[i].transpose() << ") m,";
+  message << ' ' << trouble << ", at time " << time << " s, step " << n_steps
+          << "; choose a smaller time step (stable estimate in summary.json) or start from the last snapshot";
+  throw RunError(message.str());
 }
 
 } // namespace bergamo::dem

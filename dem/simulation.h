@@ -44,7 +44,7 @@ public:
   Simulation(const SimulationParameters &parameters, Particles particles, std::vector<PlaneWall> walls);
 
   void compute_forces(); ///< contacts and their resultants at the present step
-  void integrate();      ///< kick, turn and drift to the next step
+  void integrate();      ///< kick, turn and drift to the next step; throws RunError as check_finite() does
 
   void step()
   {
@@ -114,6 +114,8 @@ private:
   void rebuild_neighbours();
   void book_external_work();
   void sum_contact_forces();
+  [[noreturn]] void report_divergence() const;
+  [[noreturn]] void throw_diverged(std::size_t i, const char *trouble) const;
   double gravity_potential() const;
 
   explicit Simulation(const SimulationParameters &parameters);

@@ -73,6 +73,7 @@ BERGAMO_INLINE Pack sqrt(const Pack &x)
 {
   return std::experimental::sqrt(x);
 }
+// Which one max and min give where either is a NaN is up to the compiler (packs: g++ 12 does as it likes).
 BERGAMO_INLINE double max(const double a, const double b)
 {
   return a > b ? a : b;

@@ -62,23 +62,24 @@ struct ContactForces
 /// Brings the forces of a touching contact to this step. Its losses follow from the trapezoidal rule, which closes the
 /// energy balance of the leapfrog scheme.
 /// @param normal_stiffness gamma E* [N/m^1.5]; @param tangential over sqrt(overlap), see dem/law/mindlin.h
-/// @param overlap this step's, > 0; @param old_overlap last step's, 0 for a new contact [m]
+/// @param root, old_root square roots of this step's overlap, > 0, and of the last one's, 0 for a new contact [m^0.5]
 /// @param displacement motion of body 2 relative to body 1 at the contact point since last step [m]
 /// @param[in,out] forces last step's, in the present tangent plane; then this step's
 /// @param[in,out] losses without the weight [J]
 template <class Real, class TangentialStiffness>
 void advance_forces(const ContactLaw &law, const Vector3<Real> &normal, const Real &normal_stiffness,
-                    const TangentialStiffness &tangential, const Real &reduced_mass, const Real &overlap,
-                    const Real &old_overlap, const Vector3<Real> &displacement, const double time_step,
+                    const TangentialStiffness &tangential, const Real &reduced_mass, const Real &root,
+                    const Real &old_root, const Vector3<Real> &displacement, const double time_step,
                     ContactForces<Real> &forces, Losses<Real> &losses)
 {
   const Real approach = -normal.dot(displacement);
   const Vector3<Real> sliding = displacement + normal * approach;
-  const Real root = math::sqrt(overlap), old_root = math::sqrt(old_overlap);
+  const Real overlap = root * root, old_overlap = old_root * old_root;
 
   const Real elastic_force = normal_stiffness * root * overlap;
   const Real damping = normal_damping(law, Real(Real(1.5) * normal_stiffness * root), reduced_mass);
-  const Real normal_force = math::max(Real(elastic_force + damping * approach * Real(1. / time_step)), Real(0.));
+  const Real pushing = elastic_force + damping * approach * Real(1. / time_step);
+  const Real normal_force = math::select(pushing <= Real(0.), Real(0.), pushing); // a NaN stays one and stops the run
   const Real old_elastic = Real(0.4) * normal_stiffness * old_root * old_overlap * old_overlap;
   losses.viscous +=
       Real(0.5) * (forces.normal + normal_force) * approach - (Real(0.4) * elastic_force * overlap - old_elastic);

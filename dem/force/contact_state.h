@@ -131,8 +131,8 @@ Vector3<Real> advance_contact(ContactState<Real> &s, const ContactLaw &law, cons
                               const Vector3<Real> &displacement, const double time_step, Losses<Real> &losses)
 {
   Losses<Real> lost;
-  advance_forces(law, s.normal, s.stiffness.normal, s.tangential_stiffness(), s.reduced_mass, s.overlap, old_overlap,
-                 displacement, time_step, s.forces, lost);
+  advance_forces(law, s.normal, s.stiffness.normal, s.tangential_stiffness(), s.reduced_mass, math::sqrt(s.overlap),
+                 math::sqrt(old_overlap), displacement, time_step, s.forces, lost);
   losses.friction += s.weight * lost.friction;
   losses.viscous += s.weight * lost.viscous;
   return s.forces.on_body1(s.normal) * s.weight;

@@ -34,11 +34,10 @@ template <class Real, class Target>
 math::Mask<Real> follow(SphereContactState<Real> &state, const PairMotion<Real> &motion, const ContactLaw &law,
                         Losses<Real> &losses, const Target &target)
 {
-  using math::max, math::select, math::sqrt;
+  using math::select, math::sqrt;
   const SphereGeometry<Real> g(motion.half_line, state.radius_sum, state.radius_difference);
   const math::Mask<Real> is_apart = g.overlap <= Real(0.);
-  const Real old_root = state.root_overlap, old_overlap = state.overlap();
-  const Real root = sqrt(select(is_apart, Real(1.), g.overlap)), overlap = root * root;
+  const Real root = sqrt(select(is_apart, Real(1.), g.overlap));
   const Real dt(motion.time_step);
 
   // The force turns with the line of the centres and, about it, with the mean of both spins (Wellmann 3.24 ff.):
@@ -50,32 +49,23 @@ math::Mask<Real> follow(SphereContactState<Real> &state, const PairMotion<Real> 
   Vector3<Real> old_force = state.forces.tangential + first + turn.cross(first) * Real(0.5);
   old_force = old_force - g.normal * g.normal.dot(old_force);
 
-  const Vector3<Real> displacement = motion.displacement(g.point);
-  const Real approach = -g.normal.dot(displacement);
-  const Vector3<Real> sliding = displacement + g.normal * approach;
-
-  const Real elastic_force = state.normal_stiffness * root * overlap;
-  const Real damping = normal_damping(law, Real(Real(1.5) * state.normal_stiffness * root), state.reduced_mass);
-  const Real normal_force = max(Real(elastic_force + damping * approach * Real(1. / motion.time_step)), Real(0.));
-  const Real old_elastic = Real(0.4) * state.normal_stiffness * old_root * old_overlap * old_overlap;
-  const Real viscous =
-      Real(0.5) * (state.forces.normal + normal_force) * approach - (Real(0.4) * elastic_force * overlap - old_elastic);
-
-  const RoundStiffness<Real> stiffness(state.tangential_stiffness);
-  const TangentialStep<Real> step =
-      tangential_step(stiffness, root, old_root, old_force, sliding, Real(Real(law.friction) * normal_force));
-  losses.friction += select(is_apart, Real(0.), Real(state.weight * step.loss));
-  losses.viscous += select(is_apart, Real(0.), Real(state.weight * viscous));
+  ContactForces<Real> forces{old_force, state.forces.normal};
+  Losses<Real> lost;
+  advance_forces(law, g.normal, state.normal_stiffness, RoundStiffness<Real>(state.tangential_stiffness),
+                 state.reduced_mass, root, state.root_overlap, motion.displacement(g.point), motion.time_step, forces,
+                 lost);
+  losses.friction += select(is_apart, Real(0.), Real(state.weight * lost.friction));
+  losses.viscous += select(is_apart, Real(0.), Real(state.weight * lost.viscous));
 
   // Both arms lie along the normal, so the torques are parallel.
-  const Vector3<Real> unit_torque = g.normal.cross(step.force) * state.weight;
+  const Vector3<Real> unit_torque = g.normal.cross(forces.tangential) * state.weight;
   const Real beside = Real(0.5) * state.radius_difference;
-  store_resultants<Real>((step.force - g.normal * normal_force) * state.weight,
-                         unit_torque * (g.half_distance + beside), unit_torque * (g.half_distance - beside), target);
+  store_resultants<Real>(forces.on_body1(g.normal) * state.weight, unit_torque * (g.half_distance + beside),
+                         unit_torque * (g.half_distance - beside), target);
 
-  state.root_overlap = select(is_apart, old_root, root);
-  state.forces.normal = select(is_apart, state.forces.normal, normal_force);
-  state.forces.tangential = select<Real>(is_apart, state.forces.tangential, step.force);
+  state.root_overlap = select(is_apart, state.root_overlap, root);
+  state.forces.normal = select(is_apart, state.forces.normal, forces.normal);
+  state.forces.tangential = select<Real>(is_apart, state.forces.tangential, forces.tangential);
   return is_apart;
 }
 

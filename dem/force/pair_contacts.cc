@@ -272,15 +272,6 @@ void PairContacts::renew_incidence(const Particles &p)
   incidence.is_current = true;
 }
 
-void PairContacts::add_resultants(const std::int32_t i, GrainLoad &load) const
-{
-  for (auto k = incidence.row[i]; k < incidence.row[i + 1]; ++k)
-  {
-    const std::int32_t entry = incidence.entries[k];
-    load.add((entry & 2 ? spheres.resultant : grains.resultant)[entry >> 2], entry & 1);
-  }
-}
-
 void PairContacts::renew(VerletList new_list, const Particles &particles)
 {
   std::vector<std::int32_t> new_slot(new_list.size(), apart);

@@ -71,7 +71,15 @@ struct PairContacts
                PhaseTimes &times);
 
   /// Adds what the contacts give to grain i, in a fixed order.
-  void add_resultants(std::int32_t i, GrainLoad &load) const;
+  void add_resultants(const std::int32_t i, GrainLoad &load) const
+  {
+    const Resultant *of[] = {grains.resultant.data(), spheres.resultant.data()};
+    for (auto k = incidence.row[i]; k < incidence.row[i + 1]; ++k)
+    {
+      const std::int32_t entry = incidence.entries[k];
+      load.add(of[(entry >> 1) & 1][entry >> 2], entry & 1);
+    }
+  }
 
   /// Has every contact searched anew at the next step, e.g. after weights of grains have been changed.
   void refresh(const Particles &particles);

@@ -39,7 +39,7 @@ void store(std::vector<Vec3> &values, const Lanes &grains, const Vector3<Pack> &
     values[grains.begin + lane] = math::lane<Pack>(packed, lane);
 }
 
-/// @return whether all states are finite; `largest` grows to the largest motion of a grain
+/// @return whether all new states are finite, else none is stored; `largest` grows to the largest motion of a grain
 bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const double dt, Pack &largest)
 {
   const Pack weight = load(p.weight, grains), kick = dt / weight;
@@ -60,6 +60,8 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
   const Orientation<Pack> orientation = turned(old, Vector3<Pack>(spin * Pack(dt)));
 
   const Pack motion = dt * (velocity.norm() + spin.norm() * load(p.bounding_radius, grains));
+  if (math::any(!(motion + position.squaredNorm() + orientation.w < infinity)))
+    return false;
   largest = math::max(largest, motion);
   store(p.velocity, grains, velocity);
   store(p.position, grains, position);
@@ -71,7 +73,7 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
                                                     math::lane(orientation.y, lane), math::lane(orientation.z, lane));
     p.motion[grains.begin + lane] += math::lane(motion, lane);
   }
-  return !math::any(!(motion + position.squaredNorm() + orientation.w < infinity));
+  return true;
 }
 
 } // namespace

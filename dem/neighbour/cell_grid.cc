@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace bergamo::dem
 {
@@ -43,7 +44,17 @@ CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size)
 
 std::vector<std::int32_t> spatial_order(const std::span<const Vec3> positions, const double cell_size)
 {
-  return CellGrid(positions, cell_size).particles;
+  CellGrid grid(positions, cell_size);
+  const auto by_place = [&](const std::int32_t i, const std::int32_t j)
+  {
+    for (int d = 0; d < 3; ++d)
+      if (positions[i][d] != positions[j][d])
+        return positions[i][d] < positions[j][d];
+    return i < j;
+  };
+  for (std::size_t cell = 0; cell + 1 < grid.begin.size(); ++cell)
+    std::sort(grid.particles.begin() + grid.begin[cell], grid.particles.begin() + grid.begin[cell + 1], by_place);
+  return std::move(grid.particles);
 }
 
 std::vector<std::int32_t> inverse_order(const std::span<const std::int32_t> order)

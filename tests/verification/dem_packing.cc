@@ -252,18 +252,18 @@ TEST_CASE("a packing compressed to 1 kPa rests there")
   // 0.2 mm, E* = 52 MPa: d = (f/(4/3 E* sqrt(R*)))^(2/3) = 4 micrometres, 1 % of a radius.
   double deepest = 0., kinetic = 0.;
   std::size_t n_touching = 0;
-  for (const ContactState &s : simulation.pairs.state)
-    if (s.touching != 0.)
-    {
-      deepest = std::max(deepest, s.overlap);
-      ++n_touching;
-      CHECK(s.tangential_force.norm() <= 0.24 * s.normal_force * (1. + 1e-12));
-    }
+  for (const TouchingContact &contact : simulation.pairs.touching(simulation.particles))
+  {
+    const ContactState<double> &s = contact.state;
+    deepest = std::max(deepest, s.overlap);
+    ++n_touching;
+    CHECK(s.forces.tangential.norm() <= 0.24 * s.forces.normal * (1. + 1e-12));
+  }
   CHECK(deepest > 0.);
   CHECK(deepest < 4e-6);
   // A stable packing of frictional grains has more than four contacts a grain, walls counted once.
-  for (const ContactState &s : simulation.wall_contacts.state)
-    n_touching += s.touching != 0.;
+  for (std::size_t k = 0; k < simulation.wall_contacts.size(); ++k)
+    n_touching += simulation.wall_contacts.is_touching(k);
   CHECK(2. * n_touching / simulation.particles.size() > 4.);
 
   // At rest: the kinetic energy is far below the elastic one.

@@ -54,7 +54,8 @@ struct Pair
   Vec3 force(const int id) const { return simulation.particles.force[index(id)]; }
   Vec3 torque(const int id) const { return simulation.particles.torque[index(id)]; }
   double mass(const int id) const { return simulation.particles.mass[index(id)]; }
-  bool touches() const { return !simulation.pairs.state.empty() && simulation.pairs.state[0].touching != 0.; }
+  std::vector<TouchingContact> contacts() const { return simulation.pairs.touching(simulation.particles); }
+  bool touches() const { return simulation.pairs.n_touching() > 0; }
 
   Vec3 momentum() const { return mass(0) * velocity(0) + mass(1) * velocity(1); }
 
@@ -270,8 +271,8 @@ TEST_CASE("an undamped impact gives back the speed, at second order in the time 
     pair.simulation.compute_forces();
     met = met || pair.touches();
     n_touching += pair.touches();
-    if (met)
-      largest = std::max(largest, pair.simulation.pairs.state[0].overlap);
+    if (pair.touches())
+      largest = std::max(largest, pair.contacts()[0].state.overlap);
     // Kinetic and stored energy as they flow: what the trapezoidal rule misses is booked as (viscous) loss, so the
     // balance closes to rounding in a central impact.
     CHECK(pair.simulation.energy().balance() == Approx(pair.mass(0) * v * v).epsilon(1e-12));
@@ -382,17 +383,18 @@ TEST_CASE("the energy balance of colliding grains of any shape closes")
       double start = 0., change = 0.;
       for (int i = 0; i < 200000 && (!met || pair.touches()); ++i)
       {
-        const std::vector<ContactState> before = pair.simulation.pairs.state;
+        const std::vector<TouchingContact> before = pair.contacts();
         pair.simulation.compute_forces();
-        if (!before.empty() && before[0].touching != 0. && pair.touches())
+        if (!before.empty() && pair.touches())
         {
-          const ContactState &now = pair.simulation.pairs.state[0];
-          ContactState turned = before[0];
+          const ContactState<double> now = pair.contacts()[0].state;
+          ContactState<double> turned = before[0].state;
           const auto &omega = pair.simulation.particles.angular_velocity;
           turned.spin = turned.normal.dot(0.5 * p.time_step * (omega[0] + omega[1]));
-          take_geometry(turned, now.normal, turned.overlap, {1., 1., now.major_axis}, elastic_pair(p.grain, p.grain));
+          take_geometry(turned, now.normal, turned.overlap, RelativeCurvature<double>{1., 1., now.major_axis},
+                        elastic_pair(p.grain, p.grain));
           turned.stiffness = now.stiffness;
-          const ContactEnergy old_energy = stored_energy(before[0]), new_energy = stored_energy(turned);
+          const ContactEnergy old_energy = stored_energy(before[0].state), new_energy = stored_energy(turned);
           change += new_energy.normal + new_energy.tangential - old_energy.normal - old_energy.tangential;
         }
         met = met || pair.touches();
@@ -447,7 +449,9 @@ TEST_CASE("a collision does not depend on the frame")
       one.simulation.step();
       other.simulation.step();
     }
-    CHECK(one.simulation.pairs.n_searches > 100);
+    if (run > 0) // spheres need no search
+      CHECK(one.simulation.pairs.n_searches > 100);
+    CHECK(one.simulation.energy().friction_loss > 0.); // they did meet
     for (int id = 0; id < 2; ++id)
     {
       CHECK((other.velocity(id) - turn * one.velocity(id)).norm() < 1e-9);

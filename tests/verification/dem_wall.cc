@@ -126,7 +126,7 @@ TEST_CASE("the work of a moving wall is the energy that the grain gains")
     for (int i = 0; i < 100000; ++i)
     {
       simulation.step();
-      const bool touches = !simulation.wall_contacts.state.empty() && simulation.wall_contacts.state[0].touching != 0.;
+      const bool touches = simulation.wall_contacts.size() > 0 && simulation.wall_contacts.is_touching(0);
       met = met || touches;
       if (met && !touches)
         break;
@@ -161,7 +161,7 @@ TEST_CASE("the account stays closed when a wall is taken away")
     simulation.step();
   simulation.compute_forces();
   REQUIRE(simulation.walls[0].work > 0.);
-  REQUIRE(simulation.wall_contacts.state[0].touching == 0.);
+  REQUIRE_FALSE(simulation.wall_contacts.is_touching(0));
   const double before = simulation.energy().balance();
   const double scale = simulation.energy().kinetic;
   simulation.remove_wall(0);
