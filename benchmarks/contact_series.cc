@@ -237,8 +237,12 @@ void print(const char *name, const Tally &t, const bool is_apart)
   const double percent = 100. / t.pairs, compared = t.compared;
   std::printf("%-14s %8ld %5ld %5ld %5ld ", name, t.pairs, t.undecided, t.wrong, t.lower);
   std::printf(is_apart ? "%6.1f%% " : "     -  ", percent * t.at_once);
-  std::printf("%7.3f%% %7.3f%% %6.2f %5.0f %6.2f", percent * t.long_ones, percent * t.elsewhere,
-              t.evaluations.sum / t.pairs, t.evaluations.worst, 1e6 * t.seconds / t.pairs);
+  if (t.evaluations.worst > 0.)
+    std::printf("%7.3f%% %7.3f%% %6.2f %5.0f", percent * t.long_ones, percent * t.elsewhere,
+                t.evaluations.sum / t.pairs, t.evaluations.worst);
+  else // of packs only the sum is known
+    std::printf("     -   %7.3f%% %6.2f     -", percent * t.elsewhere, t.evaluations.sum / t.pairs);
+  std::printf(" %6.2f", 1e6 * t.seconds / t.pairs);
   if (!is_apart)
     std::printf("  %.1e %.1e  %.1e %.1e  %.1e %.1e", t.overlap.sum / compared, t.overlap.worst, t.points.sum / compared,
                 t.points.worst, t.degrees.sum / compared, t.degrees.worst);
