@@ -35,16 +35,17 @@ std::vector<TouchingPair> make_pairs(const double spread)
     s.eps2 = 1. + spread * (2. * uniform(generator) - 1.);
     return s;
   };
-  std::vector<TouchingPair> pairs(1000);
-  for (TouchingPair &pair : pairs)
+  std::vector<TouchingPair> pairs;
+  for (int i = 0; i < 1000; ++i)
   {
-    pair.body1 = make_pose(grain(), Vec3::Zero(), Quaternion::Identity());
-    pair.body2 = make_pose(grain(), Vec3::Zero(), draw_orientation(generator));
+    TouchingPair pair{make_pose(grain(), Vec3::Zero(), Quaternion::Identity()),
+                      make_pose(grain(), Vec3::Zero(), draw_orientation(generator)), Vec3::Zero()};
     const double z = 2. * uniform(generator) - 1., angle = 2. * std::numbers::pi * uniform(generator);
     const Vec3 c(std::sqrt(1. - z * z) * std::cos(angle), std::sqrt(1. - z * z) * std::sin(angle), z);
     const double overlap = 1.75e-3 * uniform(generator);
     pair.body2.position = support(pair.body1, c).arm - support(pair.body2, -c).arm - overlap * c;
     pair.guess = (c + 1e-4 * Vec3(uniform(generator), uniform(generator), uniform(generator))).normalized();
+    pairs.push_back(pair);
   }
   return pairs;
 }

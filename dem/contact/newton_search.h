@@ -98,7 +98,6 @@ public:
   {
     while (math::any(is_open) && n_evaluations < max_evaluations)
       advance();
-    take_last_step();
   }
 
   Evaluation<Real> best; ///< the least phi found
@@ -111,7 +110,7 @@ public:
 private:
   static constexpr double longest_step = 0.5;     // about 30 degrees: the model says nothing beyond
   static constexpr double least_curvature = 1e-6; // of the model, over the smallest half-axis
-  static constexpr double last_step = 1e-5;       // [rad]; also the tangential gap over the smallest half-axis
+  static constexpr double tolerance = 1e-10;      // of the tangential gap, over the smallest half-axis
   static constexpr double resolution = 1e-15;     // of a unit vector
   static constexpr double growth = 1.5;           // of the longest step after a success
   static constexpr double max_widenings = 3.;
@@ -172,9 +171,7 @@ private:
     const Mask is_apart = best.phi < Real(0.);
     const Real size = tangential.norm();
     // On a flat face p moves a lot for a change of c below resolution: then c is as good as it can be.
-    const Real length = step.norm();
-    const Mask at_minimum =
-        (size < Real(last_step) * length_scale && length < Real(last_step)) || length < Real(resolution);
+    const Mask at_minimum = size < Real(tolerance) * length_scale || step.norm() < Real(resolution);
     const Mask is_wide = size < Real(-wide_enough) * best.phi || widenings >= Real(max_widenings);
     is_open = !((is_apart && is_wide) || (!is_apart && at_minimum));
   }
@@ -226,24 +223,6 @@ private:
     // Near a kink Newton's step is too long by 1/(q - 1) once more after the next success: remember what was found.
     longest = select(is_better, longest, math::clamp(Real(step.norm()), Real(length * Real(0.05)), longest));
     decide();
-  }
-
-  /// The step that is left at a minimum is taken without another evaluation: the model gives phi to third order and
-  /// the points to second, 1e-15 and 1e-10 of the body.
-  void take_last_step()
-  {
-    const Mask is_at_minimum = !is_open && best.phi > Real(0.);
-    const Vector3<Real> s = math::select<Real>(is_at_minimum, step, Vector3<Real>(step * Real(0.)));
-    const TangentFrameOf<Real> frame = tangent_frame(best.c);
-    const Vector3<Real> t1 = frame.col(0), t2 = frame.col(1);
-    const Real s1 = t1.dot(s), s2 = t2.dot(s);
-    const auto moved = [&](const CurvatureRadii<Real> &radii) -> Vector3<Real>
-    { return t1 * (radii.r11 * s1 + radii.r12 * s2) + t2 * (radii.r12 * s1 + radii.r22 * s2); };
-    best.phi -= Real(0.5) * tangential.dot(s);
-    best.arm1 += moved(best.radii1);
-    best.arm2 -= moved(best.radii2);
-    const Vector3<Real> target = best.c + s;
-    best.c = target / target.norm();
   }
 
   Pose<Real> body1, body2;

@@ -179,7 +179,12 @@ TEST_CASE("a state of a contact that is no number is found in the same step, at 
             if (name == "tangential")
               state.forces.tangential[1] = no_number;
             else if (name == "overlap")
-              state.overlap = no_number;
+            {
+              if constexpr (requires { state.root_overlap; })
+                state.root_overlap = no_number;
+              else
+                state.overlap = no_number;
+            }
             else if (name == "weight")
               state.weight = no_number;
             else if constexpr (requires { state.normal_stiffness; })
