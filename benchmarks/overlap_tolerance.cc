@@ -1,0 +1,99 @@
+// What the search of a contact only when its motion asks for it costs in accuracy, and gains in speed: a settled
+// packing is compressed with several overlap tolerances, and its contact forces are compared with those of a search at
+// every step. `overlap_tolerance [grains] [steps]`.
+
+#include "benchmarks/packing_cache.h"
+#include "benchmarks/step_timing.h"
+
+#include <omp.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <utility>
+
+namespace
+{
+
+using namespace bergamo;
+using namespace bergamo::benchmark;
+
+constexpr double strain_rate = 10.; // of the packing's height [1/s]
+
+struct Outcome
+{
+  std::map<std::pair<int, int>, dem::Vec3> force; ///< by grains [N]
+  double seconds = 0., searches = 0.;             ///< searches a contact and step
+};
+
+Outcome compress(const dem::Simulation &packing, const double tolerance, const int n_steps)
+{
+  dem::Simulation simulation = packing;
+  dem::SimulationParameters parameters = simulation.parameters();
+  parameters.contact.overlap_tolerance = tolerance;
+  simulation.change(parameters);
+  const double height = simulation.walls[5].point[2] - simulation.walls[4].point[2];
+  simulation.walls[5].velocity = dem::Vec3(0., 0., -strain_rate * height);
+  const auto n_searches = simulation.pairs.n_searches;
+  const auto start = std::chrono::steady_clock::now();
+  for (int n = 0; n < n_steps; ++n)
+    simulation.step();
+  Outcome outcome;
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.searches =
+      static_cast<double>(simulation.pairs.n_searches - n_searches) / n_steps / simulation.pairs.n_touching();
+  for (const auto &[first, second, s] : simulation.pairs.touching(simulation.particles))
+    outcome.force[{first, second}] = s.forces.on_body1(s.normal);
+  return outcome;
+}
+
+/// Sum of the differences of all contact forces over the sum of the forces.
+double relative_error(const Outcome &outcome, const Outcome &reference)
+{
+  double error = 0., sum = 0.;
+  const dem::Vec3 none = dem::Vec3::Zero();
+  for (const auto &[grains, force] : reference.force)
+  {
+    const auto found = outcome.force.find(grains);
+    error += (force - (found == outcome.force.end() ? none : found->second)).norm();
+    sum += force.norm();
+  }
+  for (const auto &[grains, force] : outcome.force)
+    if (!reference.force.contains(grains))
+      error += force.norm();
+  return error / sum;
+}
+
+} // namespace
+
+int main(const int argc, char **const argv)
+{
+  try
+  {
+    omp_set_num_threads(1);
+    const int n_grains = argc > 1 ? std::stoi(argv[1]) : 1000, n_steps = argc > 2 ? std::stoi(argv[2]) : 2000;
+    const std::filesystem::path cache = BERGAMO_PACKING_CACHE;
+    std::filesystem::create_directories(cache);
+    const auto packing =
+        cached_packing(cache, {.n_grains = n_grains}, [](const std::string &line) { std::cerr << line << '\n'; });
+    const Outcome every_step = compress(*packing, 0., n_steps);
+    std::cout << n_grains << " superquadrics, " << n_steps << " steps of " << packing->parameters().time_step
+              << " s at a strain rate of " << strain_rate << " 1/s\n"
+              << "tolerance   searches a contact and step   error of the contact forces   time over that of 0\n";
+    for (const double tolerance : {0., 1e-6, 1e-5, 1e-4, 1e-3, 1e-2})
+    {
+      const Outcome o = tolerance == 0. ? every_step : compress(*packing, tolerance, n_steps);
+      std::cout << std::setw(9) << tolerance << std::setw(30) << o.searches << std::setw(30)
+                << relative_error(o, every_step) << std::setw(22) << o.seconds / every_step.seconds << '\n';
+    }
+    return 0;
+  }
+  catch (const std::exception &error)
+  {
+    std::cerr << "overlap_tolerance: " << error.what() << '\n';
+    return 1;
+  }
+}
