@@ -156,15 +156,16 @@ def split(program, kernel):
     rows = collections.defaultdict(lambda: [0, 0, 0])
     for (path, function, address), cost in costs.items():
         is_inside = os.path.basename(path) == os.path.basename(program)
-        where = (functions.get(address) if is_inside else None) or (os.path.basename(path), short(re.split(r"::{lambda| \[clone", function)[0]) or function)
+        around = re.split(r"::\{lambda| \[clone", function)[0]
+        where = (functions.get(address) if is_inside else None) or (os.path.basename(path), short(around) or function)
         rows[where][0] += cost
         if is_inside:
             rows[where][1] += cost * (address in slow["div"])
             rows[where][2] += cost * (address in slow["sqrt"])
     rows["all", ""] = [sum(column) for column in zip(*rows.values())]
     print(f"{kernel}, per item\n{'function':<66}{'instr.':>8}{'div':>7}{'sqrt':>7}")
-    for (path, function), row in sorted(rows.items(), key=lambda row: -row[1][0]):
-        print(f"{path + ' ' + function:<66}{row[0] / items:>8.1f}{row[1] / items:>7.2f}{row[2] / items:>7.2f}")
+    for place, row in sorted(rows.items(), key=lambda row: -row[1][0]):
+        print(f"{' '.join(place)[:64]:<66}{row[0] / items:>8.1f}{row[1] / items:>7.2f}{row[2] / items:>7.2f}")
 
 
 def main():
