@@ -71,7 +71,8 @@ struct PlacedSupport
 
 /// @param normal unit vector, global; @param frame tangent_frame(normal), or of -normal: the radii are even in it.
 template <class Real>
-PlacedSupport<Real> support(const Pose<Real> &body, const Vector3<Real> &normal, const TangentFrameOf<Real> &frame)
+[[gnu::flatten]] PlacedSupport<Real> support(const Pose<Real> &body, const Vector3<Real> &normal,
+                                             const TangentFrameOf<Real> &frame)
 {
   const Matrix3<Real> &r = body.rotation;
   const Vector3<Real> n = turn_back(r, normal), t1 = turn_back<Real>(r, frame.col(0)),

@@ -80,6 +80,7 @@ class NewtonSearch
 public:
   using Mask = math::Mask<Real>;
 
+  /// @param body1, body2 must outlive the search; @param start unit vector
   NewtonSearch(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &start)
       : best(body1, body2, start), body1(body1), body2(body2)
   {
@@ -225,7 +226,7 @@ private:
     decide();
   }
 
-  Pose<Real> body1, body2;
+  const Pose<Real> &body1, &body2;
   Vector3<Real> tangential; ///< gap at best
   Vector3<Real> step;       ///< next to be tried
   Inverse inverse;

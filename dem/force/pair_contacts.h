@@ -74,11 +74,13 @@ struct PairContacts
   void add_resultants(const std::int32_t i, GrainLoad &load) const
   {
     const Resultant *of[] = {grains.resultant.data(), spheres.resultant.data()};
+    GrainLoad sum = load; // stays in registers
     for (auto k = incidence.row[i]; k < incidence.row[i + 1]; ++k)
     {
       const std::int32_t entry = incidence.entries[k];
-      load.add(of[(entry >> 1) & 1][entry >> 2], entry & 1);
+      sum.add(of[(entry >> 1) & 1][entry >> 2], entry & 1);
     }
+    load = sum;
   }
 
   /// Has every contact searched anew at the next step, e.g. after weights of grains have been changed.

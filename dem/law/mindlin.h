@@ -69,7 +69,7 @@ TangentialStep<Real> tangential_step(const Stiffness &stiffness, const Real &roo
 {
   using math::select;
   const Real from = select(old_root <= Real(0.), root, old_root); // a NaN stays one, here and in what follows
-  const Real inverse = Real(1.) / (root * from); // one division for two
+  const Real inverse = Real(1.) / (root * from);                  // one division for two
   const Real one_over_root = inverse * from, one_over_old_root = inverse * root;
   const Real shrink = select(from <= root, Real(1.), Real(root * one_over_old_root));
   const Vector3<Real> trial = old_force * shrink + stiffness.increment(displacement) * root;

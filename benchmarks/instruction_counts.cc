@@ -1,0 +1,347 @@
+// One hot kernel on fixed seeded grains, so that its instructions can be counted: benchmarks/instruction_counts.py runs
+// this program under callgrind with one pass and with two, and takes the difference.
+//
+// Usage: instruction_counts KERNEL PASSES; prints the items (contacts, pairs, grains) of one pass and the compiler.
+//        instruction_counts                prints the kernels
+
+#include "dem/contact/common_normal.h"
+#include "dem/contact/newton_search.h"
+#include "dem/contact/pose_lanes.h"
+#include "dem/force/follow.h"
+#include "dem/force/pair_contacts.h"
+#include "dem/force/search_contacts.h"
+#include "dem/motion/leapfrog.h"
+#include "dem/packing/distribution.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace
+{
+
+using namespace bergamo::dem;
+
+constexpr int n_pairs = 64, n_packs = n_pairs / pack_width, n_grains = 2 * n_pairs;
+constexpr double density = 2650., time_step = 1e-7;               // [kg/m^3], [s]
+constexpr double smallest_overlap = 3e-8, largest_overlap = 3e-7; // [m]
+constexpr double guess_error = 1e-4;                              // [rad]
+const Vec3 gravity(0., 0., -9.81);
+const ContactLaw law{elastic_pair(Material{}, Material{}), 0.5, 0.1, 0.};
+const ContactParameters parameters;
+
+enum class Grain
+{
+  sand,
+  sphere
+};
+
+class Random
+{
+public:
+  double operator()(const double low, const double high)
+  {
+    return std::uniform_real_distribution<double>(low, high)(generator);
+  }
+  Vec3 direction() { return draw_orientation(generator) * Vec3::UnitZ(); }
+  Quaternion orientation() { return draw_orientation(generator); }
+  Superquadric shape(const Grain grain)
+  {
+    Superquadric s = draw_grain({}, generator);
+    return grain == Grain::sand ? s : Superquadric{Vec3::Constant(s.half_axes[1]), 1., 1.};
+  }
+
+private:
+  std::mt19937_64 generator{1};
+};
+
+/// Slow enough that contacts stay closed, and that the motion of a step is small as in a simulation.
+void set_in_motion(Particles &p, Random &random)
+{
+  for (std::size_t i = 0; i < p.size(); ++i)
+  {
+    p.velocity[i] = random(0., 1e-3) * random.direction();
+    p.angular_velocity[i] = random(0., 1.) * random.direction();
+    p.angular_momentum[i] =
+        p.orientation[i] * (p.orientation[i].conjugate() * p.angular_velocity[i]).cwiseProduct(p.inertia[i]);
+    p.force[i] = random(0., 1e-3) * random.direction();
+    p.torque[i] = random(0., 1e-7) * random.direction();
+  }
+}
+
+Particles lone_grains(const Grain grain, Random &random)
+{
+  Particles p;
+  for (int i = 0; i < n_grains; ++i)
+    p.add(random.shape(grain), density, Vec3::Zero(), random.orientation());
+  set_in_motion(p, random);
+  return p;
+}
+
+/// Pairs of grains (2 k, 2 k + 1) that touch, and the normals of their contacts.
+struct TouchingPairs
+{
+  Particles particles;
+  std::vector<Vec3> normal;
+
+  TouchingPairs(const Grain grain, Random &random)
+  {
+    while (static_cast<int>(normal.size()) < n_pairs)
+    {
+      const Superquadric shape1 = random.shape(grain), shape2 = random.shape(grain);
+      const Quaternion turn1 = random.orientation(), turn2 = random.orientation();
+      const BodyPose body1 = make_pose(shape1, Vec3::Zero(), turn1);
+      BodyPose body2 = make_pose(shape2, Vec3::Zero(), turn2);
+      const Vec3 c = random.direction();
+      const double overlap = random(smallest_overlap, largest_overlap);
+      body2.position = support(body1, c).arm - support(body2, -c).arm - overlap * c;
+      const ContactGeometry g = find_contact(body1, body2);
+      if (g.overlap < 0.99 * overlap) // the contact is elsewhere
+        continue;
+      particles.add(shape1, density, body1.position, turn1);
+      particles.add(shape2, density, body2.position, turn2);
+      normal.push_back(g.normal);
+    }
+    set_in_motion(particles, random);
+  }
+};
+
+Vec3 nearby(const Vec3 &normal, Random &random)
+{
+  const Vec3 tangent = normal.cross(random.direction()).normalized();
+  return (normal + guess_error * tangent).normalized();
+}
+
+/// Searches of one pack of touching pairs.
+class PairSearches
+{
+public:
+  explicit PairSearches(Random &random) : pairs(Grain::sand, random), direction(n_pairs, Eigen::Vector3f::Zero())
+  {
+    begun.reserve(n_pairs);
+    for (int pair = 0; pair < n_pairs; ++pair)
+      searches.push_back({pair, 2 * pair, 2 * pair + 1, PairContacts::apart});
+  }
+
+  void search_all()
+  {
+    const SearchContext context{pairs.particles, law, parameters, time_step, store, direction};
+    for (int pack = 0; pack < n_packs; ++pack)
+      search_contacts(std::span(searches).subspan(pack * pack_width, pack_width), context, losses, begun);
+  }
+
+  /// Gives a slot to every contact, in the order of the pairs.
+  void take_begun()
+  {
+    search_all();
+    if (begun.size() != n_pairs)
+      std::abort();
+    store.resize(n_pairs);
+    for (const BegunContact &c : begun)
+    {
+      store.set(c.pair, c.state);
+      store.first[c.pair] = c.first;
+      store.second[c.pair] = c.second;
+      searches[c.pair].slot = c.pair;
+    }
+    begun.clear();
+  }
+
+  TouchingPairs pairs;
+  ContactStore<ContactState> store;
+  std::vector<Eigen::Vector3f> direction;
+  std::vector<ContactSearch> searches;
+  std::vector<BegunContact> begun;
+  ContactLosses losses;
+};
+
+template <class State>
+Losses<Pack> follow_blocks(State &store, const Particles &particles)
+{
+  Losses<Pack> losses;
+  for (int block = 0; block < n_packs; ++block)
+    follow_block(store, block, particles, law, time_step, losses);
+  return losses;
+}
+
+int follow_contact(const int passes, Random &random)
+{
+  PairSearches s(random);
+  s.take_begun();
+  for (int pass = 0; pass < passes; ++pass)
+    follow_blocks(s.store, s.pairs.particles);
+  return n_pairs;
+}
+
+int follow_sphere_contact(const int passes, Random &random)
+{
+  const TouchingPairs pairs(Grain::sphere, random);
+  const Particles &p = pairs.particles;
+  ContactStore<SphereContactState> store;
+  store.resize(n_pairs);
+  for (int pair = 0; pair < n_pairs; ++pair)
+  {
+    const int i = 2 * pair, j = i + 1;
+    const SphereGeometry<double> g(0.5 * (p.position[j] - p.position[i]), p.bounding_radius[i], p.bounding_radius[j]);
+    const double curvature = 0.5 * (1. / p.bounding_radius[i] + 1. / p.bounding_radius[j]);
+    const HertzMindlin<double> stiffness = hertz_mindlin(curvature, curvature, law.elastic);
+    SphereContactState<double> state = SphereContactState<double>::idle();
+    state.overlap = g.overlap;
+    state.normal_stiffness = stiffness.normal;
+    state.tangential_stiffness = stiffness.tangential_major;
+    state.reduced_mass = 1. / (1. / p.mass[i] + 1. / p.mass[j]);
+    state.weight = 1.;
+    store.set(pair, state);
+    store.first[pair] = i;
+    store.second[pair] = j;
+  }
+  for (int pass = 0; pass < passes; ++pass)
+    follow_blocks(store, p);
+  return n_pairs;
+}
+
+int warm_search(const int passes, Random &random)
+{
+  PairSearches s(random);
+  s.take_begun();
+  std::vector<Vector3<Pack>> guess(n_packs);
+  for (int pair = 0; pair < n_pairs; ++pair)
+  {
+    const Vec3 c = nearby(s.pairs.normal[pair], random);
+    for (int d = 0; d < 3; ++d)
+      guess[pair / pack_width][d][pair % pack_width] = c[d];
+  }
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    for (int pack = 0; pack < n_packs; ++pack)
+      s.store.blocks[pack].normal = guess[pack];
+    s.search_all();
+  }
+  return n_pairs;
+}
+
+int cold_search(const int passes, Random &random)
+{
+  PairSearches s(random);
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    s.begun.clear();
+    s.search_all();
+  }
+  return n_pairs;
+}
+
+Pose<Pack> packed_pose(const Particles &p, const int pack, const int body)
+{
+  Pose<Pack> packed = in_every_lane(make_pose({}, Vec3::Zero(), Quaternion::Identity()));
+  auto *numbers = reinterpret_cast<double *>(&packed);
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    const int i = 2 * (pack * pack_width + lane) + body;
+    const BodyPose alone = make_pose(p.shape[i], p.position[i], p.orientation[i]);
+    const auto *source = reinterpret_cast<const double *>(&alone);
+    for (std::size_t field = 0; field < sizeof(BodyPose) / sizeof(double); ++field)
+      numbers[field * pack_width + lane] = source[field];
+  }
+  return packed;
+}
+
+[[gnu::noinline]] void evaluate(const Pose<Pack> &body1, const Pose<Pack> &body2, Evaluation<Pack> &e)
+{
+  e = Evaluation<Pack>(body1, body2, e.c);
+}
+
+int support_evaluation(const int passes, Random &random)
+{
+  const TouchingPairs pairs(Grain::sand, random);
+  std::vector<Pose<Pack>> body1, body2;
+  std::vector<Evaluation<Pack>> evaluations;
+  for (int pack = 0; pack < n_packs; ++pack)
+  {
+    body1.push_back(packed_pose(pairs.particles, pack, 0));
+    body2.push_back(packed_pose(pairs.particles, pack, 1));
+    const Vector3<Pack> c = math::generate_vector<Pack>([&](const int lane) -> const Vec3 &
+                                                        { return pairs.normal[pack * pack_width + lane]; });
+    evaluations.emplace_back(body1[pack], body2[pack], c);
+  }
+  for (int pass = 0; pass < passes; ++pass)
+    for (int pack = 0; pack < n_packs; ++pack)
+      evaluate(body1[pack], body2[pack], evaluations[pack]);
+  return n_pairs;
+}
+
+int move(const Grain grain, const int passes, Random &random)
+{
+  Particles p = lone_grains(grain, random);
+  for (int pass = 0; pass < passes; ++pass)
+    if (!advance(p, gravity, time_step))
+      std::abort();
+  return n_grains;
+}
+
+int motion(const int passes, Random &random)
+{
+  return move(Grain::sand, passes, random);
+}
+
+int sphere_motion(const int passes, Random &random)
+{
+  return move(Grain::sphere, passes, random);
+}
+
+int sum_of_six_contacts(const int passes, Random &random)
+{
+  constexpr int n_contacts = 6, n_entries = n_grains * n_contacts;
+  Particles p = lone_grains(Grain::sand, random);
+  PairContacts contacts;
+  contacts.grains.resize(n_entries / 2);
+  for (Resultant &r : contacts.grains.resultant)
+    r = {random.direction(), random.direction(), random.direction()};
+  PairContacts::Incidence &incidence = contacts.incidence;
+  for (int i = 0; i <= n_grains; ++i)
+    incidence.row.push_back(i * n_contacts);
+  for (int entry = 0; entry < n_entries; ++entry) // slot and side, each once, scattered: 5 and n_entries are coprime
+    incidence.entries.push_back((entry * 5 % n_entries) / 2 * 4 + entry * 5 % 2);
+  for (int pass = 0; pass < passes; ++pass)
+    for (int i = 0; i < n_grains; ++i)
+    {
+      Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+      contacts.add_resultants(i, force, torque);
+      p.force[i] = force;
+      p.torque[i] = torque;
+    }
+  return n_grains;
+}
+
+struct Kernel
+{
+  const char *name;
+  int (*run)(int passes, Random &random); ///< @return items of one pass
+};
+constexpr Kernel kernels[] = {
+    {"follow_contact", follow_contact}, {"follow_sphere_contact", follow_sphere_contact}, {"warm_search", warm_search},
+    {"cold_search", cold_search},       {"support_evaluation", support_evaluation},       {"motion", motion},
+    {"sphere_motion", sphere_motion},   {"sum_of_six_contacts", sum_of_six_contacts},
+};
+
+} // namespace
+
+int main(const int argc, const char *const *argv)
+{
+  if (argc != 3)
+  {
+    for (const Kernel &kernel : kernels)
+      std::puts(kernel.name);
+    return argc == 1 ? 0 : 2;
+  }
+  for (const Kernel &kernel : kernels)
+    if (std::strcmp(kernel.name, argv[1]) == 0)
+    {
+      Random random;
+      const int items = kernel.run(std::atoi(argv[2]), random);
+      std::printf("items %d\ncompiler g++ %s\npack_width %d\n", items, __VERSION__, pack_width);
+      return 0;
+    }
+  std::fprintf(stderr, "no kernel is called %s\n", argv[1]);
+  return 2;
+}
