@@ -112,10 +112,17 @@ bool Simulation::grains_left_their_neighbours()
   const double limit = 0.5 * h.verlet_distance;
   if (particles.largest_motion < h.look_at_motion)
     return false;
+  Collected<double> squares;
+  parallel_ranges(particles.size(), 1024,
+                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  {
+                    double most = 0.;
+                    for (std::size_t i = begin; i < end; ++i)
+                      most = std::max(most, (particles.position[i] - h.position_when_built[i]).squaredNorm());
+                    squares.of(thread).push_back(most);
+                  });
   double largest_square = 0.;
-#pragma omp parallel for schedule(static) reduction(max : largest_square)
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    largest_square = std::max(largest_square, (particles.position[i] - h.position_when_built[i]).squaredNorm());
+  squares.for_each([&](const double square) { largest_square = std::max(largest_square, square); });
   const double largest = std::sqrt(largest_square);
   h.look_at_motion = particles.largest_motion + (limit - largest);
   return largest > limit;

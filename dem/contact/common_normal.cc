@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace bergamo::dem
@@ -57,7 +58,7 @@ ContactGeometry search_globally(const BodyPose &body1, const BodyPose &body2, co
   const Pose<Pack> bodies1 = in_every_lane(body1), bodies2 = in_every_lane(body2);
   const auto pack_of = [](const auto &direction)
   {
-    return math::generate_vector<Pack>([&](const int lane) -> const Vec3 & { return direction(lane); });
+    return math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return direction(lane); });
   };
 
   std::array<std::pair<double, int>, n_directions> ranking;
@@ -66,7 +67,10 @@ ContactGeometry search_globally(const BodyPose &body1, const BodyPose &body2, co
     const Vector3<Pack> c = pack_of([&](const int lane) -> const Vec3 & { return directions[i + lane]; });
     const Pack phi = Evaluation<Pack>(bodies1, bodies2, c).phi;
     for (int lane = 0; lane < pack_width; ++lane)
-      ranking[i + lane] = {math::lane(phi, lane), i + lane};
+    {
+      const double height = math::lane(phi, lane);
+      ranking[i + lane] = {std::isnan(height) ? std::numeric_limits<double>::infinity() : height, i + lane};
+    }
   }
   std::partial_sort(ranking.begin(), ranking.begin() + n_starts, ranking.end());
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/contact/geometry.h"
+#include "dem/core/pack_vectors.h"
 
 namespace bergamo::dem
 {

@@ -12,7 +12,7 @@
 ///
 /// The width follows the instruction set of the build: 8 with AVX-512, 4 with AVX, 2 with SSE2. Every operation works
 /// lane by lane, so what a lane holds never depends on its neighbours: results do not depend on how work was batched.
-/// This is the only file that knows the vector library.
+/// This file and pack_vectors.h are the only ones that know the vector library.
 namespace bergamo::dem
 {
 
@@ -144,14 +144,6 @@ BERGAMO_INLINE Real generate(Value &&value)
     return value(0);
   else
     return Real([&](auto lane) { return value(static_cast<int>(lane)); });
-}
-
-template <class Real, class Value>
-BERGAMO_INLINE Vector3<Real> generate_vector(Value &&value)
-{
-  return {generate<Real>([&](const int lane) { return value(lane)[0]; }),
-          generate<Real>([&](const int lane) { return value(lane)[1]; }),
-          generate<Real>([&](const int lane) { return value(lane)[2]; })};
 }
 
 BERGAMO_INLINE double lane(const double x, int)

@@ -24,12 +24,15 @@ struct Followed
 template <class Real, class Motion>
 Followed<Real> follow(ContactState<Real> &state, const Motion &motion, const ContactLaw &law, Losses<Real> &losses)
 {
+  constexpr double largest_spin = 0.1; // that a force is turned by at once [rad]
   ContactState<Real> next = state;
   const Vector3<Real> displacement = motion.displacement(state.point);
   next.overlap = state.overlap - state.normal.dot(displacement);
   next.budget = state.budget - motion.bound(displacement, state.radius);
   next.spin = state.spin + motion.turn_about(state.normal);
-  const math::Mask<Real> is_due = next.budget < Real(0.) || next.overlap <= Real(0.);
+  // Whatever is no number is due: the search mends it, or its force stops the run.
+  const math::Mask<Real> is_due =
+      !(next.budget >= Real(0.)) || !(next.overlap > Real(0.)) || !(math::abs(next.spin) < Real(largest_spin));
   next.overlap = math::select(is_due, state.overlap, next.overlap);
 
   Losses<Real> lost;
@@ -75,8 +78,11 @@ Collected<std::int32_t> follow_all(const Store &store, ContactLosses &losses, Fo
                         const math::Mask<Pack> mask = follow(block, lost);
                         if (math::any(mask))
                           for (int lane = 0; lane < pack_width; ++lane)
-                            if (math::lane(mask, lane))
-                              masked.of(thread).push_back(static_cast<std::int32_t>(block * pack_width + lane));
+                          {
+                            const auto slot = static_cast<std::int32_t>(block * pack_width + lane);
+                            if (math::lane(mask, lane) && store.pair[slot] != store.free_slot)
+                              masked.of(thread).push_back(slot);
+                          }
                       }
                       chunk_losses[chunk] += lost;
                     }

@@ -26,11 +26,6 @@ struct NewSphereContact
   Resultant resultant;
 };
 
-bool are_spheres(const Particles &p, const std::int32_t i, const std::int32_t j)
-{
-  return p.shape[i].is_sphere() && p.shape[j].is_sphere();
-}
-
 /// The same contact seen with its bodies exchanged.
 void exchange_bodies(ContactState<double> &s)
 {
@@ -138,7 +133,7 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
                         const double motion = p.motion[i] + p.motion[j];
                         if (!(motion < rest_until[pair]))
                         {
-                          if (!are_spheres(p, i, j))
+                          if (!are_spheres(i, j))
                           {
                             candidates.of(thread).push_back(static_cast<std::int32_t>(pair));
                             slack = 0.;
@@ -265,7 +260,7 @@ void PairContacts::renew_incidence(const Particles &p)
                  for_each_touching(i,
                                    [&](const std::int32_t pair, const int side)
                                    {
-                                     const bool is_sphere = are_spheres(p, list.first[pair], list.second[pair]);
+                                     const bool is_sphere = are_spheres(list.first[pair], list.second[pair]);
                                      incidence.entries[next++] = slot[pair] * 4 + is_sphere * 2 + side;
                                    });
                });
@@ -312,7 +307,7 @@ void PairContacts::renew(VerletList new_list, const Particles &particles)
   left.for_each(
       [&](const std::int32_t pair)
       {
-        if (are_spheres(particles, list.first[pair], list.second[pair]))
+        if (are_spheres(list.first[pair], list.second[pair]))
         {
           losses += release(spheres.get(slot[pair]));
           spheres.remove(slot[pair]);
@@ -323,6 +318,9 @@ void PairContacts::renew(VerletList new_list, const Particles &particles)
           grains.remove(slot[pair]);
         }
       });
+  is_sphere.resize(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    is_sphere[i] = particles.shape[i].is_sphere();
   list = std::move(new_list);
   slot = std::move(new_slot);
   rest_until = std::move(new_rest);
@@ -331,7 +329,7 @@ void PairContacts::renew(VerletList new_list, const Particles &particles)
   for (std::size_t pair = 0; pair < list.size(); ++pair)
     if (slot[pair] != apart)
     {
-      const bool is_sphere = are_spheres(particles, list.first[pair], list.second[pair]);
+      const bool is_sphere = are_spheres(list.first[pair], list.second[pair]);
       (is_sphere ? sphere_pairs : grain_pairs).push_back(static_cast<std::int32_t>(pair));
     }
   compact(grains, grain_pairs, slot);
@@ -343,6 +341,8 @@ void PairContacts::renew(VerletList new_list, const Particles &particles)
 void PairContacts::reorder(const std::vector<std::int32_t> &order, const Particles &reordered)
 {
   const std::vector<std::int32_t> new_index = inverse_order(order);
+  for (std::size_t i = 0; i < is_sphere.size(); ++i)
+    is_sphere[i] = reordered.shape[i].is_sphere();
   struct Place
   {
     std::int32_t first, second, pair;
@@ -381,7 +381,7 @@ void PairContacts::reorder(const std::vector<std::int32_t> &order, const Particl
     if (slot[place.pair] == apart)
       continue;
     const std::int32_t s = slot[place.pair];
-    const bool is_sphere = are_spheres(reordered, place.first, place.second);
+    const bool is_sphere = are_spheres(place.first, place.second);
     if (place.is_exchanged && is_sphere)
       exchange(spheres, s);
     else if (place.is_exchanged)
@@ -417,7 +417,7 @@ std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
     if (slot[pair] == apart)
       continue;
     const std::int32_t i = list.first[pair], j = list.second[pair];
-    if (!are_spheres(p, i, j))
+    if (!are_spheres(i, j))
     {
       contacts.push_back({i, j, grains.get(slot[pair])});
       continue;

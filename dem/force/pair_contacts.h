@@ -55,6 +55,9 @@ struct PairContacts
 
   static constexpr std::int32_t apart = -1;
 
+  std::vector<std::uint8_t> is_sphere; ///< by grain, since the list was renewed
+  bool are_spheres(const std::int32_t i, const std::int32_t j) const { return is_sphere[i] && is_sphere[j]; }
+
   std::int32_t n_touching() const { return grains.size() + spheres.size(); }
 
   /// All touching contacts in the order of the pairs.

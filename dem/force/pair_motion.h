@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/core/pack.h"
+#include "dem/core/pack_vectors.h"
 #include "dem/force/resultant.h"
 #include "dem/state/particles.h"
 
@@ -23,7 +23,7 @@ struct PairMotion
   {
     const auto load = [](const std::vector<Vec3> &values, const auto &index)
     {
-      return math::generate_vector<Real>([&](const int lane) -> const Vec3 & { return values[index(lane)]; });
+      return math::gather_vectors<Real>([&](const int lane) -> const Vec3 & { return values[index(lane)]; });
     };
     half_line = (load(p.position, second) - load(p.position, first)) * Real(0.5);
     velocity = load(p.velocity, second) - load(p.velocity, first);
@@ -62,8 +62,9 @@ template <class Real, class Target>
 void store_resultants(const Vector3<Real> &force, const Vector3<Real> &torque1, const Vector3<Real> &torque2,
                       const Target &target)
 {
-  for (int lane = 0; lane < width<Real>; ++lane)
-    target(lane) = {math::lane<Real>(force, lane), math::lane<Real>(torque1, lane), math::lane<Real>(torque2, lane)};
+  math::scatter_vectors<Real>(force, [&](const int lane) -> Vec4 & { return target(lane).force; });
+  math::scatter_vectors<Real>(torque1, [&](const int lane) -> Vec4 & { return target(lane).torque1; });
+  math::scatter_vectors<Real>(torque2, [&](const int lane) -> Vec4 & { return target(lane).torque2; });
 }
 
 } // namespace bergamo::dem

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "dem/core/types.h"
+#include "dem/core/pack_vectors.h"
 
 namespace bergamo::dem
 {
-
-/// Three components and one unused: sums of many run in one register.
-using Vec4 = Eigen::Vector4d;
 
 /// What one contact gives to its bodies: the force on body 1 (body 2 gets the opposite) and both torques about the
 /// centres, with the contact's weight. Every contact owns one, so that forces need neither locks nor atomics.

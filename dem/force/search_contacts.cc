@@ -26,7 +26,7 @@ Pose<Real> gather_pose(const Particles &p, const Index &index)
              z = load([&](const std::int32_t i) { return p.orientation[i].z(); }),
              w = load([&](const std::int32_t i) { return p.orientation[i].w(); });
   return {shape, rotation_matrix(x, y, z, w),
-          math::generate_vector<Real>([&](const int lane) -> const Vec3 & { return p.position[index(lane)]; })};
+          math::gather_vectors<Real>([&](const int lane) -> const Vec3 & { return p.position[index(lane)]; })};
 }
 
 /// Share of the contact in the virtual work: interpolated along the line of centres, Wellmann (6.29), and held between

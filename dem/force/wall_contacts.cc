@@ -14,6 +14,7 @@ namespace bergamo::dem
 namespace
 {
 
+constexpr std::size_t group_size = 64; // candidates that are left alone together
 constexpr double no_rest = -std::numeric_limits<double>::infinity();
 
 /// Rigid motion of a grain against a wall since the last step, as PairMotion.
@@ -121,6 +122,7 @@ void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall
   for (const auto &[key, k] : known)
     if (is_touching(k))
       fresh.losses += release(state(k));
+  fresh.group_rest_until.assign((fresh.size() + group_size - 1) / group_size, no_rest);
   *this = std::move(fresh);
 }
 
@@ -152,10 +154,9 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
         const auto grain = [&](const int lane) { return touching.first[block * pack_width + lane]; };
         const auto plane = [&](const int lane) { return touching.second[block * pack_width + lane]; };
         const WallMotion<Pack> motion{
-            math::generate_vector<Pack>([&](const int lane) -> const Vec3 & { return walls[plane(lane)].velocity; }) -
-                math::generate_vector<Pack>([&](const int lane) -> const Vec3 & { return p.velocity[grain(lane)]; }),
-            math::generate_vector<Pack>([&](const int lane) -> const Vec3 &
-                                        { return p.angular_velocity[grain(lane)]; }),
+            math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return walls[plane(lane)].velocity; }) -
+                math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.velocity[grain(lane)]; }),
+            math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.angular_velocity[grain(lane)]; }),
             time_step};
         ContactState<Pack> &state = touching.blocks[block];
         const Followed<Pack> followed = follow(state, motion, law, lost);
@@ -168,9 +169,25 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
 
   std::vector<Located> located;
   due.for_each([&](const std::int32_t s) { located.push_back({touching.pair[s], 0., touching.get(s), {}}); });
-  for (std::size_t k = 0; k < size(); ++k)
-    if (!is_touching(k) && !(p.motion[particle[k]] + walls[wall[k]].motion < rest_until[k]))
-      located.push_back({static_cast<std::int32_t>(k), 0., ContactState<double>::begin(), {}});
+  double largest_motion = p.largest_motion;
+  for (const PlaneWall &plane : walls)
+    largest_motion += plane.motion;
+  for (std::size_t group = 0; group < group_rest_until.size(); ++group)
+  {
+    if (largest_motion < group_rest_until[group])
+      continue;
+    double slack = std::numeric_limits<double>::infinity();
+    for (std::size_t k = group * group_size; k < std::min((group + 1) * group_size, size()); ++k)
+    {
+      if (is_touching(k))
+        continue;
+      const double motion = p.motion[particle[k]] + walls[wall[k]].motion;
+      if (!(motion < rest_until[k]))
+        located.push_back({static_cast<std::int32_t>(k), 0., ContactState<double>::begin(), {}});
+      slack = std::min(slack, std::max(rest_until[k] - motion, 0.));
+    }
+    group_rest_until[group] = largest_motion + slack;
+  }
 
   constexpr std::size_t chunk_size = 16; // whose losses are summed together, whatever the threads
   std::vector<ContactLosses> chunk_losses((located.size() + chunk_size - 1) / chunk_size);
@@ -207,15 +224,16 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
           separate(l.state, l.state.normal, motion_of(p, i, walls[wall[k]], time_step).displacement(l.state.point));
       touching.remove(slot[k]);
       slot[k] = apart;
+      group_rest_until[k / group_size] = no_rest;
     }
   }
 
   std::vector<Vec3> old_force;
   for (PlaneWall &w : walls)
     old_force.push_back(std::exchange(w.force, Vec3::Zero()));
-  for (std::size_t k = 0; k < size(); ++k)
-    if (is_touching(k))
-      walls[wall[k]].force -= touching.resultant[slot[k]].force.head<3>();
+  for (std::size_t s = 0; s < touching.n_slots(); ++s)
+    if (touching.pair[s] != touching.free_slot)
+      walls[touching.second[s]].force -= touching.resultant[s].force.head<3>();
   for (std::size_t w = 0; w < walls.size(); ++w)
     walls[w].work -= 0.5 * time_step * (old_force[w] + walls[w].force).dot(walls[w].velocity);
 }

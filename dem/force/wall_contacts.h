@@ -22,6 +22,8 @@ struct WallContacts
   std::vector<std::int32_t> slot; ///< in `touching`, or `apart`
   std::vector<double>
       rest_until; ///< of candidates apart, as in PairContacts, against particle.motion + wall.motion [m]
+  std::vector<double>
+      group_rest_until; ///< as in PairContacts, against particles.largest_motion plus all walls' motion [m]
   ContactStore<ContactState> touching; ///< its `pair` is the candidate, its `second` the wall
   ContactLosses losses;                ///< since the start [J]
   std::int64_t n_searches = 0;

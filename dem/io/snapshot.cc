@@ -91,6 +91,7 @@ void visit_arrays(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/pairs/grains/resultant", s.pairs.grains.resultant);
   visit("dem/pairs/spheres/resultant", s.pairs.spheres.resultant);
   visit("dem/wall_contacts/rest_until", s.wall_contacts.rest_until);
+  visit("dem/wall_contacts/group_rest_until", s.wall_contacts.group_rest_until);
   visit("dem/wall_contacts/resultant", s.wall_contacts.touching.resultant);
   visit("dem/hidden/position_when_built", h.position_when_built);
   visit("dem/hidden/wall_motion_when_built", h.wall_motion_when_built);
@@ -185,6 +186,8 @@ std::unique_ptr<Simulation> read_simulation(const ArchiveReader &archive, const 
                   else
                     value = archive.read_integer(name);
                 });
+  for (const Superquadric &shape : s.particles.shape)
+    s.pairs.is_sphere.push_back(shape.is_sphere());
   std::vector<Vec3> directions;
   read_structs(archive, "dem/pairs/separating_direction", directions);
   for (const Vec3 &d : directions)

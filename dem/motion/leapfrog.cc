@@ -1,4 +1,5 @@
 #include "dem/motion/leapfrog.h"
+#include "dem/core/pack_vectors.h"
 
 #include "dem/core/parallel.h"
 #include "dem/motion/rotation.h"
@@ -30,13 +31,16 @@ Pack load(const std::vector<double> &values, const Lanes &grains)
 
 Vector3<Pack> load(const std::vector<Vec3> &values, const Lanes &grains)
 {
-  return math::generate_vector<Pack>([&](const int lane) -> const Vec3 & { return values[grains(lane)]; });
+  return math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return values[grains(lane)]; });
 }
 
 void store(std::vector<Vec3> &values, const Lanes &grains, const Vector3<Pack> &packed)
 {
-  for (int lane = 0; lane < grains.size(); ++lane)
-    values[grains.begin + lane] = math::lane<Pack>(packed, lane);
+  if (grains.size() == pack_width)
+    math::scatter_vectors<Pack>(packed, [&](const int lane) -> Vec3 & { return values[grains.begin + lane]; });
+  else
+    for (int lane = 0; lane < grains.size(); ++lane)
+      values[grains.begin + lane] = math::lane<Pack>(packed, lane);
 }
 
 /// @return whether all new states are finite, else none is stored; `largest` grows to the largest motion of a grain

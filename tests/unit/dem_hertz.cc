@@ -1,3 +1,4 @@
+#include "dem/core/pack_vectors.h"
 #include "dem/core/tangent_frame.h"
 #include "dem/law/hertz.h"
 #include "dem/state/material.h"
@@ -391,7 +392,7 @@ TEST_CASE("the law in packs is the law of one contact")
               math::generate<Pack>([&](const int k) { return radii[k].r22; }),
               math::generate<Pack>([&](const int k) { return radii[k].r12; })};
     };
-    const Vector3<Pack> normals = math::generate_vector<Pack>([&](const int k) -> const Vec3 & { return normal[k]; });
+    const Vector3<Pack> normals = math::gather_vectors<Pack>([&](const int k) -> const Vec3 & { return normal[k]; });
     const CurvatureBounds<double> bounds{0.1, 5.};
     const CurvatureBounds<Pack> pack_bounds{Pack(0.1), Pack(5.)};
     const RelativeCurvature<Pack> packed =

@@ -63,8 +63,9 @@ std::uint64_t hash_of(const Simulation &s)
   add_contacts(hash, s.wall_contacts.touching);
   hash.add(s.walls);
   const ContactLosses &lost = s.pairs.losses, &wall_lost = s.wall_contacts.losses;
-  hash.add(std::vector<double>{s.time, p.largest_motion, lost.friction, lost.viscous, lost.curvature,
-                               wall_lost.friction, wall_lost.viscous, wall_lost.curvature});
+  hash.add(std::vector<double>{s.time, s.hidden().verlet_distance, s.hidden().look_at_motion, p.largest_motion,
+                               lost.friction, lost.viscous, lost.curvature, wall_lost.friction, wall_lost.viscous,
+                               wall_lost.curvature});
   hash.add(std::vector<std::int64_t>{s.n_steps, s.n_rebuilds, s.pairs.n_searches, s.pairs.n_undecided,
                                      s.wall_contacts.n_searches});
   return hash.value;
