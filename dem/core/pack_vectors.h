@@ -42,16 +42,17 @@ BERGAMO_INLINE Vector3<Real> gather_vectors(const Vector &vector)
             generate<Real>([&](const int lane) { return vector(lane)[2]; })};
 }
 
-/// Writes the vectors of all lanes. @param target target(lane): Vec3 &, or Vec4 & which gets a zero in its fourth place
+/// Writes the vectors of all lanes. @param target target(lane): Vec3 & or Vec4 &
+/// @param fourth goes into the fourth place of Vec4
 template <class Real, class Target>
-BERGAMO_INLINE void scatter_vectors(const Vector3<Real> &v, const Target &target)
+BERGAMO_INLINE void scatter_vectors(const Vector3<Real> &v, const Target &target, const Real &fourth = Real(0.))
 {
   using Row = std::remove_cvref_t<decltype(target(0))>;
 #if defined(__AVX512F__) && defined(__AVX512VL__)
   if constexpr (std::is_same_v<Real, Pack>)
   {
     const auto x = static_cast<__m512d>(v[0]), y = static_cast<__m512d>(v[1]), z = static_cast<__m512d>(v[2]);
-    const __m512d nothing = _mm512_setzero_pd();
+    const auto w = static_cast<__m512d>(fourth);
     const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11);
     const __m512i second = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
     const auto store_row = [&](const int k, const __m256d row)
@@ -61,22 +62,22 @@ BERGAMO_INLINE void scatter_vectors(const Vector3<Real> &v, const Target &target
       else
         _mm256_mask_storeu_pd(target(k).data(), 0b0111, row);
     };
-    const auto store_four = [&](const int even_or_odd, const __m512d xy, const __m512d z0)
+    const auto store_four = [&](const int even_or_odd, const __m512d xy, const __m512d zw)
     {
-      const __m512d front = _mm512_permutex2var_pd(xy, first, z0), back = _mm512_permutex2var_pd(xy, second, z0);
+      const __m512d front = _mm512_permutex2var_pd(xy, first, zw), back = _mm512_permutex2var_pd(xy, second, zw);
       store_row(even_or_odd, _mm512_castpd512_pd256(front));
       store_row(even_or_odd + 2, _mm512_extractf64x4_pd(front, 1));
       store_row(even_or_odd + 4, _mm512_castpd512_pd256(back));
       store_row(even_or_odd + 6, _mm512_extractf64x4_pd(back, 1));
     };
-    store_four(0, _mm512_unpacklo_pd(x, y), _mm512_unpacklo_pd(z, nothing));
-    store_four(1, _mm512_unpackhi_pd(x, y), _mm512_unpackhi_pd(z, nothing));
+    store_four(0, _mm512_unpacklo_pd(x, y), _mm512_unpacklo_pd(z, w));
+    store_four(1, _mm512_unpackhi_pd(x, y), _mm512_unpackhi_pd(z, w));
   }
   else
 #endif
     for (int k = 0; k < width<Real>; ++k)
       if constexpr (std::is_same_v<Row, Vec4>)
-        target(k) = Vec4(lane(v[0], k), lane(v[1], k), lane(v[2], k), 0.);
+        target(k) = Vec4(lane(v[0], k), lane(v[1], k), lane(v[2], k), lane(fourth, k));
       else
         target(k) = lane<Real>(v, k);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/force/contact_law.h"
+#include "dem/force/resultant.h"
 
 #include <limits>
 
@@ -12,6 +13,8 @@ namespace bergamo::dem
 template <class Real>
 struct ContactState
 {
+  using Result = Resultant;
+
   Vector3<Real> normal;
   Vector3<Real> point; ///< contact point minus the midpoint of both centres (walls: minus the grain's centre) [m]
   Vector3<Real> major_axis;
@@ -51,6 +54,8 @@ struct ContactState
 template <class Real>
 struct SphereContactState
 {
+  using Result = SphereResultant;
+
   ContactForces<Real> forces;
   Real root_overlap;                           ///< square root of the overlap [m^0.5]
   Real normal_stiffness, tangential_stiffness; ///< as in HertzMindlin

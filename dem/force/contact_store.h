@@ -1,7 +1,6 @@
 #pragma once
 
 #include "dem/core/pack.h"
-#include "dem/force/resultant.h"
 
 #include <cstdint>
 #include <vector>
@@ -29,6 +28,7 @@ template <template <class> class State>
 class ContactStore
 {
 public:
+  using Result = typename State<double>::Result; ///< what a contact gives to its bodies
   static constexpr std::int32_t free_slot = -1;
 
   std::size_t n_blocks() const { return blocks.size(); }
@@ -37,7 +37,7 @@ public:
 
   /// @param pair_index of the Verlet list; @param i, j its grains
   std::int32_t add(const std::int32_t pair_index, const std::int32_t i, const std::int32_t j,
-                   const State<double> &state, const Resultant &r)
+                   const State<double> &state, const Result &r)
   {
     if (free.empty())
       grow();
@@ -123,7 +123,7 @@ public:
   std::vector<std::int32_t> pair;          ///< of the Verlet list, by slot; free_slot where unused
   std::vector<std::int32_t> first, second; ///< grains by slot
   std::vector<std::int32_t> free;          ///< unused slots, the next to be taken at the end
-  std::vector<Resultant> resultant;        ///< by slot, of this step
+  std::vector<Result> resultant;           ///< by slot, of this step
 
 private:
   static constexpr std::size_t n_fields = sizeof(State<double>) / sizeof(double);

@@ -36,7 +36,7 @@ math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, const std
                               Losses<Pack> &losses)
 {
   return follow(store.blocks[block], motion_of(store, block, particles, time_step), law, losses,
-                [&](const int lane) -> Resultant & { return store.resultant[block * pack_width + lane]; });
+                [&](const int lane) -> SphereResultant & { return store.resultant[block * pack_width + lane]; });
 }
 
 } // namespace bergamo::dem

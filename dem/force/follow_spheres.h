@@ -28,7 +28,7 @@ struct SphereGeometry
 };
 
 /// Brings contacts of spheres to this step and writes what they give to their bodies.
-/// @param[in,out] losses with the weights [J]; @param target target(lane): Resultant &
+/// @param[in,out] losses with the weights [J]; @param target target(lane): SphereResultant &
 /// @return lanes that came apart, whose state is left as last step left it
 template <class Real, class Target>
 math::Mask<Real> follow(SphereContactState<Real> &state, const PairMotion<Real> &motion, const ContactLaw &law,
@@ -57,11 +57,13 @@ math::Mask<Real> follow(SphereContactState<Real> &state, const PairMotion<Real> 
   losses.friction += select(is_apart, Real(0.), Real(state.weight * lost.friction));
   losses.viscous += select(is_apart, Real(0.), Real(state.weight * lost.viscous));
 
-  // Both arms lie along the normal, so the torques are parallel.
-  const Vector3<Real> unit_torque = g.normal.cross(forces.tangential) * state.weight;
   const Real beside = Real(0.5) * state.radius_difference;
-  store_resultants<Real>(forces.on_body1(g.normal) * state.weight, unit_torque * (g.half_distance + beside),
-                         unit_torque * (g.half_distance - beside), target);
+  math::scatter_vectors<Real>(
+      forces.on_body1(g.normal) * state.weight, [&](const int lane) -> Vec4 & { return target(lane).force; },
+      g.half_distance + beside);
+  math::scatter_vectors<Real>(
+      g.normal.cross(forces.tangential) * state.weight, [&](const int lane) -> Vec4 & { return target(lane).torque; },
+      g.half_distance - beside);
 
   state.root_overlap = select(is_apart, state.root_overlap, root);
   state.forces.normal = select(is_apart, state.forces.normal, forces.normal);

@@ -23,7 +23,7 @@ struct NewSphereContact
 {
   std::int32_t pair;
   SphereContactState<double> state;
-  Resultant resultant;
+  SphereResultant resultant;
 };
 
 /// The same contact seen with its bodies exchanged.
@@ -73,7 +73,7 @@ NewSphereContact begin_spheres(const Particles &p, const std::int32_t pair, cons
   s.radius_difference = radius1 - radius2;
   NewSphereContact contact{pair, s, {}};
   follow(contact.state, motion_of(p, i, j, time_step), law, losses,
-         [&](int) -> Resultant & { return contact.resultant; });
+         [&](int) -> SphereResultant & { return contact.resultant; });
   return contact;
 }
 

@@ -76,12 +76,14 @@ struct PairContacts
   /// Adds what the contacts give to grain i, in a fixed order.
   void add_resultants(const std::int32_t i, GrainLoad &load) const
   {
-    const Resultant *of[] = {grains.resultant.data(), spheres.resultant.data()};
     GrainLoad sum = load; // stays in registers
     for (auto k = incidence.row[i]; k < incidence.row[i + 1]; ++k)
     {
       const std::int32_t entry = incidence.entries[k];
-      sum.add(of[(entry >> 1) & 1][entry >> 2], entry & 1);
+      if (entry & 2)
+        sum.add(spheres.resultant[entry >> 2], entry & 1);
+      else
+        sum.add(grains.resultant[entry >> 2], entry & 1);
     }
     load = sum;
   }

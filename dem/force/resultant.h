@@ -21,7 +21,14 @@ struct Resultant
   }
 };
 
-/// Force and torque on one grain.
+/// The same of two spheres, in one line of the cache: their arms lie along the normal, so both torques are parallel.
+struct SphereResultant
+{
+  Vec4 force = Vec4::Zero();  ///< [N]; and the arm of body 1 [m]
+  Vec4 torque = Vec4::Zero(); ///< of an arm of 1 [N]; and the arm of body 2 [m]
+};
+
+/// Force and torque on one grain; the fourth numbers mean nothing.
 struct GrainLoad
 {
   Vec4 force = Vec4::Zero();  ///< [N]
@@ -33,6 +40,11 @@ struct GrainLoad
   {
     force += (1. - 2. * side) * r.force;
     torque += *(side ? &r.torque2 : &r.torque1);
+  }
+  void add(const SphereResultant &r, const int side)
+  {
+    force += (1. - 2. * side) * r.force;
+    torque += (*(side ? &r.torque : &r.force))[3] * r.torque;
   }
 };
 
