@@ -183,16 +183,17 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
   n_searches += static_cast<std::int64_t>(searches.size());
 
   // Contacts that began or ended take and leave their slots one by one.
+  std::vector<std::int32_t> changed; // pairs
   const auto leave = [&](const std::int32_t pair)
   {
     slot[pair] = apart;
     group_rest_until[pair / group_size] = -infinity;
-    incidence.is_current = false;
+    changed.push_back(pair);
   };
   const auto enter = [&](const std::int32_t pair, const std::int32_t new_slot)
   {
     slot[pair] = new_slot;
-    incidence.is_current = false;
+    changed.push_back(pair);
   };
   for (const ContactSearch &s : searches)
   {
@@ -226,45 +227,55 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
         const NewSphereContact s = begin_spheres(p, pair, i, j, law, time_step, losses);
         enter(pair, spheres.add(pair, i, j, s.state, s.resultant));
       });
+  for (std::size_t k = 0; k < changed.size() && incidence.is_current; ++k)
+    for (const std::int32_t i : {list.first[changed[k]], list.second[changed[k]]})
+      renew_incidence_row(i);
   if (!incidence.is_current)
-    renew_incidence(p);
+    renew_incidence(p.size());
   watch.lap(times.searches);
 }
 
-void PairContacts::renew_incidence(const Particles &p)
+void PairContacts::renew_incidence_row(const std::int32_t i)
 {
-  const std::size_t n = p.size();
-  incidence.row.assign(n + 1, 0);
-  const auto for_each_touching = [&](const std::size_t i, const auto &visit)
+  const std::int32_t end = incidence.row[i + 1];
+  std::int32_t next = incidence.row[i];
+  const auto add = [&](const std::int32_t pair, const int side)
   {
-    for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
-      if (slot[pair] != apart)
-        visit(pair, 0);
-    for (auto k = list.incoming_row[i]; k < list.incoming_row[i + 1]; ++k)
-      if (slot[list.incoming[k]] != apart)
-        visit(list.incoming[k], 1);
+    if (slot[pair] == apart)
+      return;
+    if (next == end)
+    {
+      incidence.is_current = false; // the row overflows
+      return;
+    }
+    incidence.entries[next++] = slot[pair] * 4 + are_spheres(list.first[pair], list.second[pair]) * 2 + side;
   };
+  for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
+    add(pair, 0);
+  for (auto k = list.incoming_row[i]; k < list.incoming_row[i + 1]; ++k)
+    add(list.incoming[k], 1);
+  incidence.count[i] = next - incidence.row[i];
+}
+
+void PairContacts::renew_incidence(const std::size_t n)
+{
+  constexpr std::int32_t room = 3; // for contacts that begin
+  incidence.row.assign(n + 1, 0);
+  incidence.count.resize(n);
   parallel_for(n,
                [&](const std::size_t i)
                {
                  std::int32_t count = 0;
-                 for_each_touching(i, [&](std::int32_t, int) { ++count; });
-                 incidence.row[i + 1] = count;
+                 for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
+                   count += slot[pair] != apart;
+                 for (auto k = list.incoming_row[i]; k < list.incoming_row[i + 1]; ++k)
+                   count += slot[list.incoming[k]] != apart;
+                 incidence.row[i + 1] = count + room;
                });
   std::partial_sum(incidence.row.begin(), incidence.row.end(), incidence.row.begin());
   incidence.entries.resize(incidence.row[n]);
-  parallel_for(n,
-               [&](const std::size_t i)
-               {
-                 std::int32_t next = incidence.row[i];
-                 for_each_touching(i,
-                                   [&](const std::int32_t pair, const int side)
-                                   {
-                                     const bool is_sphere = are_spheres(list.first[pair], list.second[pair]);
-                                     incidence.entries[next++] = slot[pair] * 4 + is_sphere * 2 + side;
-                                   });
-               });
   incidence.is_current = true;
+  parallel_for(n, [&](const std::size_t i) { renew_incidence_row(static_cast<std::int32_t>(i)); });
 }
 
 void PairContacts::renew(VerletList new_list, const Particles &particles)

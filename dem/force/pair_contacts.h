@@ -44,11 +44,11 @@ struct PairContacts
   /// Screening leaves alone whole groups of pairs until the largest motion of any grain reaches this [m].
   std::vector<double> group_rest_until;
 
-  /// Touching contacts of each grain, by which it sums its forces: entries[row[i]] .. entries[row[i + 1]]. Made anew
-  /// where a contact began or ended.
+  /// Touching contacts of each grain, by which it sums its forces: entries[row[i]] .. entries[row[i] + count[i]], with
+  /// room for some more. Rows follow the contacts that begin or end; where one overflows, all are made anew.
   struct Incidence
   {
-    std::vector<std::int32_t> row, entries;
+    std::vector<std::int32_t> row, count, entries;
     bool is_current = false;
   };
   Incidence incidence;
@@ -77,7 +77,7 @@ struct PairContacts
   void add_resultants(const std::int32_t i, GrainLoad &load) const
   {
     GrainLoad sum = load; // stays in registers
-    for (auto k = incidence.row[i]; k < incidence.row[i + 1]; ++k)
+    for (auto k = incidence.row[i]; k < incidence.row[i] + incidence.count[i]; ++k)
     {
       const std::int32_t entry = incidence.entries[k];
       if (entry & 2)
@@ -95,7 +95,8 @@ struct PairContacts
   ContactEnergy total_energy() const;
 
 private:
-  void renew_incidence(const Particles &particles);
+  void renew_incidence(std::size_t n_grains);
+  void renew_incidence_row(std::int32_t i);
 };
 
 } // namespace bergamo::dem

@@ -60,7 +60,7 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
   const auto number = [&](const int d)
   { return math::generate<Pack>([&](const int lane) { return p.orientation[grains(lane)].coeffs()[d]; }); };
   const Orientation<Pack> old{number(0), number(1), number(2), number(3)};
-  const Vector3<Pack> spin = mean_angular_velocity(old.matrix(), load(p.inertia, grains), momentum, dt);
+  const Vector3<Pack> spin = mean_angular_velocity(old, load(p.inertia, grains), momentum, dt);
   const Orientation<Pack> orientation = turned(old, Vector3<Pack>(spin * Pack(dt)));
 
   const Pack motion = dt * (velocity.norm() + spin.norm() * load(p.bounding_radius, grains));

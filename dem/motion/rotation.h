@@ -95,17 +95,19 @@ inline Vec3 angular_velocity(const Mat3 &matrix, const Vec3 &inertia, const Vec3
 /// Mean angular velocity over one step with the angular momentum H held: four evaluations averaged as in the classical
 /// Runge-Kutta formula (Wellmann 3.40-3.44, after Munjiza et al. 2003), with the two commutators that rotations, which
 /// do not commute, need for fourth order (Munthe-Kaas 1999; without them it is of second). Turning by it keeps H
-/// exactly.
-/// @param matrix T at the beginning of the step; @param inertia principal moments in the body frame [kg m^2]
+/// exactly. Bodies of three equal moments take H / I.
+/// @param orientation at the beginning of the step; @param inertia principal moments in the body frame [kg m^2]
 template <class Real>
-Vector3<Real> mean_angular_velocity(const Matrix3<Real> &matrix, const Vector3<Real> &inertia,
+Vector3<Real> mean_angular_velocity(const Orientation<Real> &orientation, const Vector3<Real> &inertia,
                                     const Vector3<Real> &angular_momentum, const double time_step)
 {
   const Vector3<Real> inverse(Real(1.) / inertia[0], Real(1.) / inertia[1], Real(1.) / inertia[2]);
-  const Vector3<Real> w1 = detail::spin_of(matrix, inverse, angular_momentum);
+  const Vector3<Real> round = angular_momentum * inverse[0];
   const auto is_round = inertia[0] == inertia[1] && inertia[1] == inertia[2];
   if (!math::any(!is_round))
-    return w1;
+    return round;
+  const Matrix3<Real> matrix = orientation.matrix();
+  const Vector3<Real> w1 = detail::spin_of(matrix, inverse, angular_momentum);
   // A body turned by theta sees the momentum turned back by it.
   const auto velocity_after = [&](const Vector3<Real> &w, const double dt) -> Vector3<Real>
   {
@@ -118,7 +120,7 @@ Vector3<Real> mean_angular_velocity(const Matrix3<Real> &matrix, const Vector3<R
   const Vector3<Real> w3 = velocity_after(w2 - w1.cross(w2) * Real(0.25 * time_step), 0.5 * time_step);
   const Vector3<Real> w4 = velocity_after(w3, time_step);
   const Vector3<Real> mean = (w1 + (w2 + w3) * Real(2.) + w4) * Real(1. / 6.) - w1.cross(w4) * Real(time_step / 12.);
-  return math::select<Real>(is_round, w1, mean);
+  return math::select<Real>(is_round, round, mean);
 }
 
 } // namespace bergamo::dem

@@ -68,6 +68,8 @@ double volume(const Superquadric &shape)
 
 Vec3 inertia_per_density(const Superquadric &shape)
 {
+  if (shape.is_sphere()) // exactly alike in all directions
+    return Vec3::Constant(8. / 15. * std::numbers::pi * std::pow(shape.half_axes[0], 5));
   const double e1 = shape.eps1, e2 = shape.eps2;
   const double g11 = beta_integral(e1 / 2, e1 / 2);
   const double g21 = beta_integral(e1 / 2, 3 * e1 / 2);

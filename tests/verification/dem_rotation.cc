@@ -42,7 +42,8 @@ FreeRotation rotate_freely(Quaternion q, const Vec3 &inertia, const Vec3 &moment
   FreeRotation r;
   for (int i = 0; i < n_steps; ++i)
   {
-    q = turned_by(dt * mean_angular_velocity(q.toRotationMatrix().eval(), inertia, momentum, dt), q);
+    q = turned_by(dt * mean_angular_velocity(Orientation<double>{q.x(), q.y(), q.z(), q.w()}, inertia, momentum, dt),
+                  q);
     r.last_energy_error = rotational_energy(q, inertia, momentum) / start - 1.;
     r.largest_energy_error = std::max(r.largest_energy_error, std::abs(r.last_energy_error));
   }
