@@ -182,11 +182,14 @@ int follow_sphere_contact(const int passes, Random &random)
   for (int pair = 0; pair < n_pairs; ++pair)
   {
     const int i = 2 * pair, j = i + 1;
-    const SphereGeometry<double> g(0.5 * (p.position[j] - p.position[i]), p.bounding_radius[i], p.bounding_radius[j]);
+    const double radius_sum = p.bounding_radius[i] + p.bounding_radius[j];
+    const double overlap = radius_sum - (p.position[j] - p.position[i]).norm();
     const double curvature = 0.5 * (1. / p.bounding_radius[i] + 1. / p.bounding_radius[j]);
     const HertzMindlin<double> stiffness = hertz_mindlin(curvature, curvature, law.elastic);
     SphereContactState<double> state = SphereContactState<double>::idle();
-    state.overlap = g.overlap;
+    state.root_overlap = std::sqrt(overlap);
+    state.radius_sum = radius_sum;
+    state.radius_difference = p.bounding_radius[i] - p.bounding_radius[j];
     state.normal_stiffness = stiffness.normal;
     state.tangential_stiffness = stiffness.tangential_major;
     state.reduced_mass = 1. / (1. / p.mass[i] + 1. / p.mass[j]);
@@ -260,8 +263,8 @@ int support_evaluation(const int passes, Random &random)
   {
     body1.push_back(packed_pose(pairs.particles, pack, 0));
     body2.push_back(packed_pose(pairs.particles, pack, 1));
-    const Vector3<Pack> c = math::generate_vector<Pack>([&](const int lane) -> const Vec3 &
-                                                        { return pairs.normal[pack * pack_width + lane]; });
+    const Vector3<Pack> c = math::gather_vectors<Pack>([&](const int lane) -> const Vec3 &
+                                                       { return pairs.normal[pack * pack_width + lane]; });
     evaluations.emplace_back(body1[pack], body2[pack], c);
   }
   for (int pass = 0; pass < passes; ++pass)
@@ -296,19 +299,20 @@ int sum_of_six_contacts(const int passes, Random &random)
   PairContacts contacts;
   contacts.grains.resize(n_entries / 2);
   for (Resultant &r : contacts.grains.resultant)
-    r = {random.direction(), random.direction(), random.direction()};
+    r = Resultant(random.direction(), random.direction(), random.direction());
   PairContacts::Incidence &incidence = contacts.incidence;
   for (int i = 0; i <= n_grains; ++i)
     incidence.row.push_back(i * n_contacts);
+  incidence.count.assign(n_grains, n_contacts);
   for (int entry = 0; entry < n_entries; ++entry) // slot and side, each once, scattered: 5 and n_entries are coprime
     incidence.entries.push_back((entry * 5 % n_entries) / 2 * 4 + entry * 5 % 2);
   for (int pass = 0; pass < passes; ++pass)
     for (int i = 0; i < n_grains; ++i)
     {
-      Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-      contacts.add_resultants(i, force, torque);
-      p.force[i] = force;
-      p.torque[i] = torque;
+      GrainLoad load;
+      contacts.add_resultants(i, load);
+      p.force[i] = load.force.head<3>();
+      p.torque[i] = load.torque.head<3>();
     }
   return n_grains;
 }
