@@ -97,7 +97,7 @@ void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall
   fresh.row.assign(particles.size() + 1, 0);
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
-    for (std::size_t w = 0; w < walls.size(); ++w)
+    for (std::size_t w = 0; w < walls.size() && !particles.is_fixed(i); ++w)
     {
       const double distance = walls[w].normal.dot(particles.position[i] - walls[w].point);
       if (distance >= particles.bounding_radius[i] + range)
