@@ -127,7 +127,7 @@ public:
   {
     const SearchContext context{pairs.particles, law, parameters, time_step, store, direction};
     for (int pack = 0; pack < n_packs; ++pack)
-      search_contacts(std::span(searches).subspan(pack * pack_width, pack_width), context, losses, begun);
+      search_contacts(searches, pack * pack_width, (pack + 1) * pack_width, context, losses, begun);
   }
 
   /// Gives a slot to every contact, in the order of the pairs.
@@ -139,10 +139,9 @@ public:
     store.resize(n_pairs);
     for (const BegunContact &c : begun)
     {
-      store.set(c.pair, c.state);
-      store.first[c.pair] = c.first;
-      store.second[c.pair] = c.second;
-      searches[c.pair].slot = c.pair;
+      ContactSearch &s = searches[c.search];
+      s.slot = s.pair;
+      store.put(s.slot, s.pair, s.first, s.second, c.state);
     }
     begun.clear();
   }
@@ -156,20 +155,21 @@ public:
 };
 
 template <class State>
-Losses<Pack> follow_blocks(State &store, const Particles &particles)
+void follow_pairs(State &store, const Particles &particles, const int passes)
 {
+  LoadSums loads;
+  loads.list_bodies(store.first, store.second, particles.size());
   Losses<Pack> losses;
-  for (int block = 0; block < n_packs; ++block)
-    follow_block(store, block, particles, law, time_step, losses);
-  return losses;
+  for (int pass = 0; pass < passes; ++pass)
+    for (int block = 0; block < n_packs; ++block)
+      follow_block(store, loads, block, particles, law, time_step, losses);
 }
 
 int follow_contact(const int passes, Random &random)
 {
   PairSearches s(random);
   s.take_begun();
-  for (int pass = 0; pass < passes; ++pass)
-    follow_blocks(s.store, s.pairs.particles);
+  follow_pairs(s.store, s.pairs.particles, passes);
   return n_pairs;
 }
 
@@ -194,12 +194,9 @@ int follow_sphere_contact(const int passes, Random &random)
     state.tangential_stiffness = stiffness.tangential_major;
     state.reduced_mass = 1. / (1. / p.mass[i] + 1. / p.mass[j]);
     state.weight = 1.;
-    store.set(pair, state);
-    store.first[pair] = i;
-    store.second[pair] = j;
+    store.put(pair, pair, i, j, state);
   }
-  for (int pass = 0; pass < passes; ++pass)
-    follow_blocks(store, p);
+  follow_pairs(store, p, passes);
   return n_pairs;
 }
 
@@ -292,28 +289,31 @@ int sphere_motion(const int passes, Random &random)
   return move(Grain::sphere, passes, random);
 }
 
-int sum_of_six_contacts(const int passes, Random &random)
+int sum_of_six_contacts(const int passes, Random &)
 {
-  constexpr int n_contacts = 6, n_entries = n_grains * n_contacts;
-  Particles p = lone_grains(Grain::sand, random);
-  PairContacts contacts;
-  contacts.grains.resize(n_entries / 2);
-  for (Resultant &r : contacts.grains.resultant)
-    r = Resultant(random.direction(), random.direction(), random.direction());
-  PairContacts::Incidence &incidence = contacts.incidence;
-  for (int i = 0; i <= n_grains; ++i)
-    incidence.row.push_back(i * n_contacts);
-  incidence.count.assign(n_grains, n_contacts);
-  for (int entry = 0; entry < n_entries; ++entry) // slot and side, each once, scattered: 5 and n_entries are coprime
-    incidence.entries.push_back((entry * 5 % n_entries) / 2 * 4 + entry * 5 % 2);
+  // A ring, in which each grain touches the next three.
+  constexpr int n_contacts = 3 * n_grains;
+  std::vector<std::int32_t> first(n_contacts), second(n_contacts);
+  for (int contact = 0; contact < n_contacts; ++contact)
+  {
+    first[contact] = contact / 3;
+    second[contact] = (contact / 3 + contact % 3 + 1) % n_grains;
+  }
+  LoadSums sums;
+  sums.list_bodies(first, second, n_grains);
+  const Vector3<Pack> one(1., 1., 1.);
+  BodyLoad total; // keeps the compiler from leaving the sums out
   for (int pass = 0; pass < passes; ++pass)
+  {
+    for (std::size_t chunk = 0; chunk < sums.n_chunks(); ++chunk)
+      sums.start(chunk);
+    for (int block = 0; block < n_contacts / pack_width; ++block)
+      sums.add(block, one, one, one);
     for (int i = 0; i < n_grains; ++i)
-    {
-      GrainLoad load;
-      contacts.add_resultants(i, load);
-      p.force[i] = load.force.head<3>();
-      p.torque[i] = load.torque.head<3>();
-    }
+      sums.add_load(i, total);
+  }
+  if (!total.torque.allFinite())
+    std::abort();
   return n_grains;
 }
 

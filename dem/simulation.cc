@@ -5,7 +5,7 @@
 #include "dem/motion/leapfrog.h"
 #include "dem/motion/rotation.h"
 #include "dem/motion/stable_step.h"
-#include "dem/neighbour/cell_grid.h"
+#include "dem/neighbour/spatial_order.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,12 +114,12 @@ bool Simulation::grains_left_their_neighbours()
     return false;
   Collected<double> squares;
   parallel_ranges(particles.size(), 1024,
-                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
                   {
                     double most = 0.;
                     for (std::size_t i = begin; i < end; ++i)
                       most = std::max(most, (particles.position[i] - h.position_when_built[i]).squaredNorm());
-                    squares.of(thread).push_back(most);
+                    squares.of(part).push_back(most);
                   });
   double largest_square = 0.;
   squares.for_each([&](const double square) { largest_square = std::max(largest_square, square); });
@@ -132,7 +132,7 @@ void Simulation::sort_by_place()
 {
   check_finite(); // places that are no numbers have no cell
   const double largest = *std::max_element(particles.bounding_radius.begin(), particles.bounding_radius.end());
-  const std::vector<std::int32_t> order = spatial_order(particles.position, 2. * largest);
+  const std::vector<std::int32_t> order = spatial_order(particles.position, largest);
   permute(particles.id, order);
   permute(particles.shape, order);
   permute(particles.mass, order);
@@ -203,9 +203,9 @@ void Simulation::sum_contact_forces()
   parallel_for(particles.size(),
                [&](const std::size_t i)
                {
-                 GrainLoad load;
-                 pairs.add_resultants(static_cast<std::int32_t>(i), load);
-                 wall_contacts.add_resultants(static_cast<std::int32_t>(i), load);
+                 BodyLoad load;
+                 pairs.add_load(i, load);
+                 wall_contacts.add_load(i, load);
                  particles.force[i] = load.force.head<3>();
                  particles.torque[i] = load.torque.head<3>();
                });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <omp.h>
 #include <vector>
@@ -30,22 +32,63 @@ struct Barrier
 };
 inline Barrier team_begins, team_ends;
 
-/// Calls body(thread, begin, end) once a thread for contiguous ranges that make up [0, n) in the order of the threads.
-/// Runs alone where there is too little work for a team. ThreadSanitizer looks into the bodies, but not at how the
-/// compiler hands them to the threads: that lies within the region's own barrier.
-template <class Body>
-[[gnu::no_sanitize("thread")]] void parallel_ranges(const std::size_t n, const std::size_t least_per_thread,
-                                                    Body &&body)
+/// Parts that parallel_ranges makes at most: some for each thread.
+inline std::size_t most_parts()
 {
-  const bool is_worthwhile = n >= 2 * least_per_thread;
+  return 8 * static_cast<std::size_t>(omp_get_max_threads());
+}
+
+/// One copy of the machine code of a body, whoever calls it: the compiler may contract the same sums in two copies to
+/// different fused operations, and so to different last bits.
+template <class Body>
+[[gnu::noinline, gnu::noclone]] void run_part(Body &body, const std::size_t part, const std::size_t begin,
+                                              const std::size_t end)
+{
+  body(part, begin, end);
+}
+
+/// Calls body(part, begin, end) for contiguous parts that make up [0, n); part 0 comes first in [0, n), and so on.
+/// Every thread has the same share of [0, n) at each call, so that its data stay in the caches of its core, and works
+/// it off in parts; what another has not begun when it is done it takes over. Runs alone, as one part, where there is
+/// too little work for a team. ThreadSanitizer looks into the bodies, but not at how the compiler hands them to the
+/// threads: that lies within the region's own barrier.
+/// @param least of [0, n) that is worth a part
+template <class Body>
+[[gnu::no_sanitize("thread")]] void parallel_ranges(const std::size_t n, const std::size_t least, Body &&body)
+{
+  const std::size_t n_parts = std::min(most_parts(), n / least);
+  const std::size_t n_threads = std::min<std::size_t>(omp_get_max_threads(), n_parts);
+  if (n_threads < 2)
+  {
+    if (n > 0)
+      run_part(body, 0, 0, n);
+    return;
+  }
+  struct alignas(64) Share // of one thread, in a line of the cache of its own
+  {
+    std::atomic<std::size_t> next, end; // parts
+  };
+  std::vector<Share> shares(n_threads);
+  for (std::size_t t = 0; t < n_threads; ++t)
+  {
+    shares[t].next = n_parts * t / n_threads;
+    shares[t].end = n_parts * (t + 1) / n_threads;
+  }
   team_begins.leave();
-#pragma omp parallel if (is_worthwhile)
+#pragma omp parallel num_threads(n_threads)
   {
     team_begins.enter();
-    const std::size_t thread = omp_get_thread_num(), n_threads = omp_get_num_threads();
-    const std::size_t begin = n * thread / n_threads, end = n * (thread + 1) / n_threads;
-    if (begin < end)
-      body(thread, begin, end);
+    const std::size_t thread = omp_get_thread_num();
+    for (std::size_t k = 0; k < n_threads; ++k)
+    {
+      Share &share = shares[(thread + k) % n_threads];
+      while (share.next < share.end)
+      {
+        const std::size_t part = share.next++;
+        if (part < share.end)
+          run_part(body, part, n * part / n_parts, n * (part + 1) / n_parts);
+      }
+    }
     team_ends.leave();
   }
   team_ends.enter();
@@ -64,25 +107,25 @@ void parallel_for(const std::size_t n, Body &&body)
                   });
 }
 
-/// What the threads of parallel_ranges find, in the order of the ranges whatever their number.
+/// What the parts of parallel_ranges find, in the order of [0, n) whatever the number of threads.
 template <class T>
 class Collected
 {
 public:
-  Collected() : by_thread(omp_get_max_threads()) {}
+  Collected() : by_part(most_parts()) {}
 
-  std::vector<T> &of(const std::size_t thread) { return by_thread[thread]; }
+  std::vector<T> &of(const std::size_t part) { return by_part[part]; }
 
   template <class Body>
   void for_each(Body &&body) const
   {
-    for (const std::vector<T> &part : by_thread)
+    for (const std::vector<T> &part : by_part)
       for (const T &value : part)
         body(value);
   }
 
 private:
-  std::vector<std::vector<T>> by_thread;
+  std::vector<std::vector<T>> by_part;
 };
 
 } // namespace bergamo::dem

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "dem/force/contact_law.h"
-#include "dem/force/resultant.h"
 
 #include <limits>
 
@@ -13,8 +12,6 @@ namespace bergamo::dem
 template <class Real>
 struct ContactState
 {
-  using Result = Resultant;
-
   Vector3<Real> normal;
   Vector3<Real> point; ///< contact point minus the midpoint of both centres (walls: minus the grain's centre) [m]
   Vector3<Real> major_axis;
@@ -54,8 +51,6 @@ struct ContactState
 template <class Real>
 struct SphereContactState
 {
-  using Result = SphereResultant;
-
   ContactForces<Real> forces;
   Real root_overlap;                           ///< square root of the overlap [m^0.5]
   Real normal_stiffness, tangential_stiffness; ///< as in HertzMindlin
@@ -85,14 +80,15 @@ inline ContactEnergy stored_energy(const ContactState<double> &s)
     return {};
   const double root = std::sqrt(s.overlap);
   return {s.weight * 0.4 * s.stiffness.normal * root * s.overlap * s.overlap,
-          s.weight * s.tangential_stiffness().energy(s.forces.tangential) / root};
+          s.weight * tangential_energy(s.tangential_stiffness(), s.forces.tangential, root)};
 }
 
 inline ContactEnergy stored_energy(const SphereContactState<double> &s)
 {
   const double overlap = s.overlap();
   return {s.weight * 0.4 * s.normal_stiffness * s.root_overlap * overlap * overlap,
-          s.weight * RoundStiffness<double>(s.tangential_stiffness).energy(s.forces.tangential) / s.root_overlap};
+          s.weight *
+              tangential_energy(RoundStiffness<double>(s.tangential_stiffness), s.forces.tangential, s.root_overlap)};
 }
 
 /// Losses when a contact is forgotten: what its tangential spring still held counts as lost by friction.
@@ -152,7 +148,7 @@ Real curvature_work(const ContactState<Real> &before, const ContactState<Real> &
   const auto energy = [&](const ContactState<Real> &s) -> Real
   {
     return s.weight * (Real(0.4) * s.stiffness.normal * root * old_overlap * old_overlap +
-                       s.tangential_stiffness().energy(s.forces.tangential) / root);
+                       tangential_energy(s.tangential_stiffness(), s.forces.tangential, root));
   };
   return math::select(old_overlap > Real(0.), Real(energy(after) - energy(before)), Real(0.));
 }

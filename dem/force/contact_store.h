@@ -2,7 +2,9 @@
 
 #include "dem/core/pack.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace bergamo::dem
@@ -22,33 +24,53 @@ State<double> lane_of(const State<Pack> &pack, const int lane)
   return state;
 }
 
+/// Slots that belong together: their contacts are followed by one thread and summed by themselves.
+constexpr std::size_t slots_per_chunk = 1024;
+
 /// Touching contacts in blocks of one pack each: lane k of block b is slot b * pack_width + k. A slot keeps its contact
-/// until that ends; then it is free for another. Only the order of memory depends on the slots, never a result.
+/// until that ends; then it is free for another. Forces are summed in the order of the slots, so that their last bits
+/// depend on it: who gets which slot follows from the contacts alone, not from threads or from a restart.
 template <template <class> class State>
 class ContactStore
 {
 public:
-  using Result = typename State<double>::Result; ///< what a contact gives to its bodies
   static constexpr std::int32_t free_slot = -1;
 
   std::size_t n_blocks() const { return blocks.size(); }
   std::size_t n_slots() const { return pair.size(); }
-  std::int32_t size() const { return static_cast<std::int32_t>(pair.size() - free.size()); }
-
-  /// @param pair_index of the Verlet list; @param i, j its grains
-  std::int32_t add(const std::int32_t pair_index, const std::int32_t i, const std::int32_t j,
-                   const State<double> &state, const Result &r)
+  std::size_t n_chunks() const { return n_free.size(); }
+  std::int32_t size() const
   {
-    if (free.empty())
-      grow();
-    const std::int32_t slot = free.back();
-    free.pop_back();
+    return static_cast<std::int32_t>(n_slots()) - std::accumulate(n_free.begin(), n_free.end(), 0);
+  }
+
+  /// Puts a contact into the first free slot of the chunk of another one, else of the last chunk, else into a new one.
+  /// @param pair_index of the Verlet list; @param i, j its grains; @param near slot of a contact close by, or none
+  std::int32_t add(const std::int32_t pair_index, const std::int32_t i, const std::int32_t j,
+                   const State<double> &state, const std::int32_t near = free_slot)
+  {
+    std::size_t chunk = near < 0 ? n_chunks() - 1 : near / slots_per_chunk;
+    if (n_slots() == 0 || n_free[chunk] == 0)
+    {
+      if (n_slots() == 0 || n_free.back() == 0)
+        grow();
+      chunk = n_chunks() - 1;
+    }
+    --n_free[chunk];
+    const auto slot =
+        static_cast<std::int32_t>(std::find(pair.begin() + first_free[chunk], pair.end(), free_slot) - pair.begin());
+    first_free[chunk] = slot + 1;
+    put(slot, pair_index, i, j, state);
+    return slot;
+  }
+
+  void put(const std::int32_t slot, const std::int32_t pair_index, const std::int32_t i, const std::int32_t j,
+           const State<double> &state)
+  {
     pair[slot] = pair_index;
     first[slot] = i;
     second[slot] = j;
     set(slot, state);
-    resultant[slot] = r;
-    return slot;
   }
 
   void remove(const std::int32_t slot)
@@ -56,21 +78,23 @@ public:
     pair[slot] = free_slot;
     first[slot] = second[slot] = 0;
     set(slot, State<double>::idle());
-    free.push_back(slot);
+    const std::size_t chunk = slot / slots_per_chunk;
+    ++n_free[chunk];
+    first_free[chunk] = std::min(first_free[chunk], slot);
   }
 
-  /// Makes room for n contacts in the slots 0 .. n - 1 of an empty store, to be filled by the caller.
+  /// Makes room for n contacts in the slots 0 .. n - 1 of an empty store, to be filled by put().
   void resize(const std::size_t n)
   {
     const std::size_t n_all = (n + pack_width - 1) / pack_width * pack_width;
+    blocks.reserve(n_all / pack_width * 17 / 16); // for contacts that begin
     blocks.assign(n_all / pack_width, State<Pack>::idle());
     pair.assign(n_all, free_slot);
     first.assign(n_all, 0);
     second.assign(n_all, 0);
-    resultant.assign(n_all, {});
-    free.clear();
-    for (std::size_t slot = n_all; slot > n; --slot)
-      free.push_back(static_cast<std::int32_t>(slot - 1));
+    make_chunks();
+    if (n_all > n)
+      n_free.back() = static_cast<std::int32_t>(n_all - n);
   }
 
   State<double> get(const std::int32_t slot) const { return lane_of(blocks[slot / pack_width], slot % pack_width); }
@@ -93,6 +117,16 @@ public:
     copy_numbers(pack, lane, blocks[slot / pack_width], slot % pack_width);
   }
 
+  /// Fetches a block ahead, if there is one.
+  void prefetch(const std::size_t block) const
+  {
+    if (block >= n_blocks())
+      return;
+    const auto *line = reinterpret_cast<const char *>(&blocks[block]);
+    for (std::size_t byte = 0; byte < sizeof(State<Pack>); byte += 64)
+      __builtin_prefetch(line + byte);
+  }
+
   /// All slots one after another, used or not, as a snapshot keeps them.
   std::vector<State<double>> states() const
   {
@@ -102,30 +136,32 @@ public:
     return all;
   }
 
-  /// Fills the blocks from a snapshot, after all other members have been set; it may come from packs of another width.
+  /// Fills the blocks from a snapshot, after pair, first and second have been set; it may come from packs of another
+  /// width.
   void restore(const std::vector<State<double>> &states)
   {
-    blocks.clear();
-    while (pair.size() % pack_width != 0)
+    const std::size_t n_all = (states.size() + pack_width - 1) / pack_width * pack_width;
+    pair.resize(n_all, free_slot);
+    first.resize(n_all, 0);
+    second.resize(n_all, 0);
+    blocks.assign(n_all / pack_width, State<Pack>::idle());
+    make_chunks();
+    for (std::size_t slot = 0; slot < n_all; ++slot)
     {
-      free.insert(free.begin(), static_cast<std::int32_t>(pair.size()));
-      pair.push_back(free_slot);
-      first.push_back(0);
-      second.push_back(0);
-      resultant.emplace_back();
+      if (slot < states.size())
+        set(static_cast<std::int32_t>(slot), states[slot]);
+      n_free[slot / slots_per_chunk] += pair[slot] == free_slot;
     }
-    blocks.resize(pair.size() / pack_width, State<Pack>::idle());
-    for (std::size_t slot = 0; slot < states.size(); ++slot)
-      set(static_cast<std::int32_t>(slot), states[slot]);
   }
 
   std::vector<State<Pack>> blocks;
   std::vector<std::int32_t> pair;          ///< of the Verlet list, by slot; free_slot where unused
   std::vector<std::int32_t> first, second; ///< grains by slot
-  std::vector<std::int32_t> free;          ///< unused slots, the next to be taken at the end
-  std::vector<Result> resultant;           ///< by slot, of this step
 
 private:
+  std::vector<std::int32_t> n_free;     // unused slots by chunk
+  std::vector<std::int32_t> first_free; // by chunk: no slot before this one is unused
+
   static constexpr std::size_t n_fields = sizeof(State<double>) / sizeof(double);
 
   static void copy_numbers(const State<Pack> &from, const int from_lane, State<Pack> &to, const int to_lane)
@@ -136,6 +172,15 @@ private:
       target[f * pack_width] = source[f * pack_width];
   }
 
+  void make_chunks()
+  {
+    const std::size_t n = (n_slots() + slots_per_chunk - 1) / slots_per_chunk;
+    n_free.assign(n, 0);
+    first_free.resize(n);
+    for (std::size_t chunk = 0; chunk < n; ++chunk)
+      first_free[chunk] = static_cast<std::int32_t>(chunk * slots_per_chunk);
+  }
+
   void grow()
   {
     const auto n = static_cast<std::int32_t>(n_slots());
@@ -143,9 +188,12 @@ private:
     pair.resize(n + pack_width, free_slot);
     first.resize(n + pack_width, 0);
     second.resize(n + pack_width, 0);
-    resultant.resize(n + pack_width);
-    for (int k = pack_width - 1; k >= 0; --k)
-      free.push_back(n + k);
+    if (n % slots_per_chunk == 0)
+    {
+      n_free.push_back(0);
+      first_free.push_back(n);
+    }
+    n_free.back() += pack_width;
   }
 };
 

@@ -18,25 +18,26 @@ PairMotion<Pack> motion_of(const ContactStore<State> &store, const std::size_t b
 
 } // namespace
 
-math::Mask<Pack> follow_block(ContactStore<ContactState> &store, const std::size_t block, const Particles &particles,
-                              const ContactLaw &law, const double time_step, Losses<Pack> &losses)
+math::Mask<Pack> follow_block(ContactStore<ContactState> &store, LoadSums &loads, const std::size_t block,
+                              const Particles &particles, const ContactLaw &law, const double time_step,
+                              Losses<Pack> &losses)
 {
   ContactState<Pack> &state = store.blocks[block];
   const PairMotion<Pack> motion = motion_of(store, block, particles, time_step);
   const Followed<Pack> followed = follow(state, motion, law, losses);
   const Vector3<Pack> &force = followed.force;
-  store_resultants<Pack>(force, (motion.half_line + state.point).cross(force),
-                         (motion.half_line - state.point).cross(force),
-                         [&](const int lane) -> Resultant & { return store.resultant[block * pack_width + lane]; });
+  loads.add(block, force, (motion.half_line + state.point).cross(force), (motion.half_line - state.point).cross(force));
   return followed.is_due;
 }
 
-math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, const std::size_t block,
+math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, LoadSums &loads, const std::size_t block,
                               const Particles &particles, const ContactLaw &law, const double time_step,
                               Losses<Pack> &losses)
 {
-  return follow(store.blocks[block], motion_of(store, block, particles, time_step), law, losses,
-                [&](const int lane) -> SphereResultant & { return store.resultant[block * pack_width + lane]; });
+  const FollowedSpheres<Pack> followed =
+      follow(store.blocks[block], motion_of(store, block, particles, time_step), law, losses);
+  loads.add(block, followed.force, followed.torque1, followed.torque2);
+  return followed.is_apart;
 }
 
 } // namespace bergamo::dem

@@ -3,6 +3,7 @@
 #include "dem/core/parallel.h"
 #include "dem/force/contact_state.h"
 #include "dem/force/contact_store.h"
+#include "dem/force/load_sums.h"
 #include "dem/force/pair_motion.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ template <class Real>
 struct Followed
 {
   math::Mask<Real> is_due; ///< to be searched anew: its state is left as last step left it
-  Vector3<Real> force;     ///< on body 1 with the weight, where not due [N]
+  Vector3<Real> force;     ///< on body 1 with the weight, zero where due [N]
 };
 
 /// Brings touching contacts to this step along the rigid motion of their bodies, with the normal held. Due are those
@@ -45,43 +46,46 @@ Followed<Real> follow(ContactState<Real> &state, const Motion &motion, const Con
   state.spin = math::select(is_due, state.spin, next.spin);
   state.forces.normal = math::select(is_due, state.forces.normal, next.forces.normal);
   state.forces.tangential = math::select<Real>(is_due, state.forces.tangential, next.forces.tangential);
-  return {is_due, force};
+  return {is_due, math::select<Real>(is_due, Vector3<Real>(Real(0.), Real(0.), Real(0.)), force)};
 }
 
-/// Follows one block of contacts and writes their resultants. @return lanes to be searched anew
-math::Mask<Pack> follow_block(ContactStore<ContactState> &store, std::size_t block, const Particles &particles,
-                              const ContactLaw &law, double time_step, Losses<Pack> &losses);
+/// Follows one block of contacts and adds what they give. @return lanes to be searched anew, which add nothing
+math::Mask<Pack> follow_block(ContactStore<ContactState> &store, LoadSums &loads, std::size_t block,
+                              const Particles &particles, const ContactLaw &law, double time_step,
+                              Losses<Pack> &losses);
 
 /// The same for contacts of spheres. @return lanes that came apart
-math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, std::size_t block, const Particles &particles,
-                              const ContactLaw &law, double time_step, Losses<Pack> &losses);
+math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, LoadSums &loads, std::size_t block,
+                              const Particles &particles, const ContactLaw &law, double time_step,
+                              Losses<Pack> &losses);
 
-/// Calls follow(block, losses) for every block of a store, which returns a mask of lanes.
-/// @param[in,out] losses their sum, by chunks of blocks whatever the number of threads [J]
+/// Calls follow(block, losses) for every block of a store, which returns a mask of lanes and adds to the loads.
+/// @param[out] loads of which all sums start at zero; @param[in,out] losses their sum, by chunks [J]
 /// @return slots of the lanes masked, in order
 template <class Store, class Follow>
-Collected<std::int32_t> follow_all(const Store &store, ContactLosses &losses, Follow &&follow)
+Collected<std::int32_t> follow_all(const Store &store, LoadSums &loads, ContactLosses &losses, Follow &&follow)
 {
-  constexpr std::size_t blocks_per_chunk = 16;
+  constexpr std::size_t blocks_per_chunk = slots_per_chunk / pack_width;
   Collected<std::int32_t> masked;
-  const std::size_t n_chunks = (store.n_blocks() + blocks_per_chunk - 1) / blocks_per_chunk;
-  std::vector<ContactLosses> chunk_losses(n_chunks);
-  parallel_ranges(n_chunks, 1,
-                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+  std::vector<ContactLosses> chunk_losses(store.n_chunks());
+  parallel_ranges(store.n_chunks(), 1,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t chunk = begin; chunk < end; ++chunk)
                     {
+                      loads.start(chunk);
                       Losses<Pack> lost;
                       const std::size_t last = std::min((chunk + 1) * blocks_per_chunk, store.n_blocks());
                       for (std::size_t block = chunk * blocks_per_chunk; block < last; ++block)
                       {
+                        store.prefetch(block + 2);
                         const math::Mask<Pack> mask = follow(block, lost);
                         if (math::any(mask))
                           for (int lane = 0; lane < pack_width; ++lane)
                           {
                             const auto slot = static_cast<std::int32_t>(block * pack_width + lane);
                             if (math::lane(mask, lane) && store.pair[slot] != store.free_slot)
-                              masked.of(thread).push_back(slot);
+                              masked.of(part).push_back(slot);
                           }
                       }
                       chunk_losses[chunk] += lost;

@@ -19,20 +19,30 @@ struct SphereGeometry
   /// @param half_line half of x2 - x1 [m]; an unused lane, without a line, gets no normal
   SphereGeometry(const Vector3<Real> &half_line, const Real &radius_sum, const Real &radius_difference)
   {
-    half_distance = half_line.norm();
-    one_over_half_distance = math::select(half_distance > Real(0.), Real(Real(1.) / half_distance), Real(0.));
+    const Real square = half_line.squaredNorm();
+    const auto is_line = square > Real(0.);
+    one_over_half_distance =
+        math::select(is_line, math::inverse_sqrt(math::select(is_line, square, Real(1.))), Real(0.));
+    half_distance = square * one_over_half_distance;
     normal = half_line * one_over_half_distance;
     overlap = radius_sum - half_distance - half_distance;
     point = normal * (Real(0.5) * radius_difference);
   }
 };
 
-/// Brings contacts of spheres to this step and writes what they give to their bodies.
-/// @param[in,out] losses with the weights [J]; @param target target(lane): SphereResultant &
-/// @return lanes that came apart, whose state is left as last step left it
-template <class Real, class Target>
-math::Mask<Real> follow(SphereContactState<Real> &state, const PairMotion<Real> &motion, const ContactLaw &law,
-                        Losses<Real> &losses, const Target &target)
+/// Contacts of spheres after a step.
+template <class Real>
+struct FollowedSpheres
+{
+  math::Mask<Real> is_apart;      ///< came apart: the state is left as last step left it
+  Vector3<Real> force;            ///< on body 1 with the weight, zero where apart [N]
+  Vector3<Real> torque1, torque2; ///< about the centres, likewise [N m]
+};
+
+/// Brings contacts of spheres to this step. @param[in,out] losses with the weights [J]
+template <class Real>
+FollowedSpheres<Real> follow(SphereContactState<Real> &state, const PairMotion<Real> &motion, const ContactLaw &law,
+                             Losses<Real> &losses)
 {
   using math::select, math::sqrt;
   const SphereGeometry<Real> g(motion.half_line, state.radius_sum, state.radius_difference);
@@ -57,18 +67,15 @@ math::Mask<Real> follow(SphereContactState<Real> &state, const PairMotion<Real> 
   losses.friction += select(is_apart, Real(0.), Real(state.weight * lost.friction));
   losses.viscous += select(is_apart, Real(0.), Real(state.weight * lost.viscous));
 
-  const Real beside = Real(0.5) * state.radius_difference;
-  math::scatter_vectors<Real>(
-      forces.on_body1(g.normal) * state.weight, [&](const int lane) -> Vec4 & { return target(lane).force; },
-      g.half_distance + beside);
-  math::scatter_vectors<Real>(
-      g.normal.cross(forces.tangential) * state.weight, [&](const int lane) -> Vec4 & { return target(lane).torque; },
-      g.half_distance - beside);
-
   state.root_overlap = select(is_apart, state.root_overlap, root);
   state.forces.normal = select(is_apart, state.forces.normal, forces.normal);
   state.forces.tangential = select<Real>(is_apart, state.forces.tangential, forces.tangential);
-  return is_apart;
+
+  // Both arms lie along the normal, and both torques are parallel.
+  const Real weight = select(is_apart, Real(0.), state.weight), beside = Real(0.5) * state.radius_difference;
+  const Vector3<Real> torque_of_unit_arm = g.normal.cross(forces.tangential) * weight;
+  return {is_apart, forces.on_body1(g.normal) * weight, torque_of_unit_arm * (g.half_distance + beside),
+          torque_of_unit_arm * (g.half_distance - beside)};
 }
 
 } // namespace bergamo::dem

@@ -4,11 +4,9 @@
 #include "dem/force/follow.h"
 #include "dem/force/follow_spheres.h"
 #include "dem/force/search_contacts.h"
-#include "dem/neighbour/cell_grid.h"
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace bergamo::dem
 {
@@ -16,28 +14,13 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t group_size = 64; // pairs that screening leaves alone together
 
 /// A pair of spheres whose contact begins in this step.
 struct NewSphereContact
 {
-  std::int32_t pair;
-  SphereContactState<double> state;
-  SphereResultant resultant;
+  std::int32_t slot;
+  Resultant resultant;
 };
-
-/// The same contact seen with its bodies exchanged.
-void exchange_bodies(ContactState<double> &s)
-{
-  s.normal = -s.normal;
-  s.forces.tangential = -s.forces.tangential;
-  s.spin = -s.spin; // about the normal
-}
-
-void exchange_bodies(SphereContactState<double> &s)
-{
-  s.forces.tangential = -s.forces.tangential;
-}
 
 PairMotion<double> motion_of(const Particles &p, const std::int32_t i, const std::int32_t j, const double time_step)
 {
@@ -56,9 +39,9 @@ double sphere_weight(const Particles &p, const std::int32_t i, const std::int32_
   return p.weight[i] + fraction * (p.weight[j] - p.weight[i]);
 }
 
-/// Two spheres that begin to touch in this step.
-NewSphereContact begin_spheres(const Particles &p, const std::int32_t pair, const std::int32_t i, const std::int32_t j,
-                               const ContactLaw &law, const double time_step, ContactLosses &losses)
+/// The state of two spheres about to touch.
+SphereContactState<double> begin_spheres(const Particles &p, const std::int32_t i, const std::int32_t j,
+                                         const ContactLaw &law)
 {
   const double radius1 = p.bounding_radius[i], radius2 = p.bounding_radius[j];
   const double curvature = 0.5 * (1. / radius1 + 1. / radius2);
@@ -71,87 +54,78 @@ NewSphereContact begin_spheres(const Particles &p, const std::int32_t pair, cons
   s.weight = sphere_weight(p, i, j);
   s.radius_sum = radius1 + radius2;
   s.radius_difference = radius1 - radius2;
-  NewSphereContact contact{pair, s, {}};
-  follow(contact.state, motion_of(p, i, j, time_step), law, losses,
-         [&](int) -> SphereResultant & { return contact.resultant; });
-  return contact;
-}
-
-/// Moves contacts to slots in the order of their pairs. @param pairs those that touch, in their order
-template <template <class> class State>
-void compact(ContactStore<State> &store, const std::vector<std::int32_t> &pairs,
-             std::vector<std::int32_t> &slot_of_pair)
-{
-  ContactStore<State> ordered;
-  ordered.resize(pairs.size());
-  parallel_for(pairs.size(),
-               [&](const std::size_t k)
-               {
-                 const std::int32_t pair = pairs[k], from = slot_of_pair[pair], to = static_cast<std::int32_t>(k);
-                 ordered.pair[to] = pair;
-                 ordered.first[to] = store.first[from];
-                 ordered.second[to] = store.second[from];
-                 ordered.resultant[to] = store.resultant[from];
-                 ordered.set(to, store.get(from));
-                 slot_of_pair[pair] = to;
-               });
-  store = std::move(ordered);
+  return s;
 }
 
 } // namespace
+
+/// Pairs apart that may touch by now.
+struct PairContacts::Screened
+{
+  Collected<std::int32_t> candidates;  ///< to be searched
+  Collected<std::int32_t> new_spheres; ///< touch
+};
+
+PairContacts::Screened PairContacts::screen(const Particles &p)
+{
+  Screened screened;
+  const auto look_at = [&](const std::int32_t pair, const std::size_t part)
+  {
+    const std::int32_t i = list.first[pair], j = list.second[pair];
+    if (!are_spheres(i, j))
+    {
+      screened.candidates.of(part).push_back(pair);
+      return;
+    }
+    const double overlap = sphere_geometry(p, i, j).overlap;
+    if (overlap > 0.)
+      screened.new_spheres.of(part).push_back(pair);
+    else
+      rest_until[pair] = p.motion[i] + p.motion[j] - overlap;
+  };
+  const auto motion_of_pair = [&](const std::size_t pair)
+  { return p.motion[list.first[pair]] + p.motion[list.second[pair]]; };
+  const std::size_t n_packs = list.size() / pack_width;
+  parallel_ranges(n_packs, 64,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t pack = begin; pack < end; ++pack)
+                    {
+                      const std::size_t pair = pack * pack_width;
+                      const Pack motion =
+                          math::generate<Pack>([&](const int lane) { return motion_of_pair(pair + lane); });
+                      const math::Mask<Pack> is_at_rest = motion < math::load(&rest_until[pair]);
+                      if (!math::any(!is_at_rest))
+                        continue;
+                      for (int lane = 0; lane < pack_width; ++lane)
+                        if (!math::lane(is_at_rest, lane))
+                          look_at(static_cast<std::int32_t>(pair + lane), part);
+                    }
+                  });
+  for (std::size_t pair = n_packs * pack_width; pair < list.size(); ++pair)
+    if (!(motion_of_pair(pair) < rest_until[pair]))
+      look_at(static_cast<std::int32_t>(pair), most_parts() - 1);
+  return screened;
+}
 
 void PairContacts::compute(const Particles &p, const ContactLaw &law, const ContactParameters &parameters,
                            const double time_step, PhaseTimes &times)
 {
   Stopwatch watch;
+  list_bodies(p.size());
 
   // 1. Touching contacts.
-  const auto due = follow_all(grains, losses,
+  const auto due = follow_all(grains, grain_loads, losses,
                               [&](const std::size_t block, Losses<Pack> &lost)
-                              { return follow_block(grains, block, p, law, time_step, lost); });
-  const auto ended_spheres = follow_all(spheres, losses,
-                                        [&](const std::size_t block, Losses<Pack> &lost)
-                                        { return follow_block(spheres, block, p, law, time_step, lost); });
+                              { return follow_block(grains, grain_loads, block, p, law, time_step, lost); });
+  const auto ended_spheres = follow_all(spheres, sphere_loads, losses,
+                                        [&](const std::size_t block, Losses<Pack> &lost) {
+                                          return follow_block(spheres, sphere_loads, block, p, law, time_step, lost);
+                                        });
   watch.lap(times.contacts);
 
   // 2. Pairs apart.
-  Collected<std::int32_t> candidates, begun_spheres;
-  parallel_ranges(group_rest_until.size(), 16,
-                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
-                  {
-                    for (std::size_t group = begin; group < end; ++group)
-                    {
-                      if (p.largest_motion < group_rest_until[group])
-                        continue;
-                      double slack = infinity;
-                      const std::size_t last = std::min((group + 1) * group_size, list.size());
-                      for (std::size_t pair = group * group_size; pair < last; ++pair)
-                      {
-                        if (slot[pair] != apart)
-                          continue;
-                        const std::int32_t i = list.first[pair], j = list.second[pair];
-                        const double motion = p.motion[i] + p.motion[j];
-                        if (!(motion < rest_until[pair]))
-                        {
-                          if (!are_spheres(i, j))
-                          {
-                            candidates.of(thread).push_back(static_cast<std::int32_t>(pair));
-                            slack = 0.;
-                            continue;
-                          }
-                          const double overlap = sphere_geometry(p, i, j).overlap;
-                          if (overlap > 0.)
-                          {
-                            begun_spheres.of(thread).push_back(static_cast<std::int32_t>(pair));
-                            continue;
-                          }
-                          rest_until[pair] = motion - overlap;
-                        }
-                        slack = std::min(slack, rest_until[pair] - motion);
-                      }
-                      group_rest_until[group] = p.largest_motion + 0.5 * slack; // both grains of a pair move
-                    }
-                  });
+  const Screened screened = screen(p);
   watch.lap(times.screening);
 
   // 3. Searches.
@@ -160,7 +134,7 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
       [&](const std::int32_t s) {
         searches.push_back({grains.pair[s], grains.first[s], grains.second[s], s});
       });
-  candidates.for_each(
+  screened.candidates.for_each(
       [&](const std::int32_t pair) {
         searches.push_back({pair, list.first[pair], list.second[pair], apart});
       });
@@ -169,13 +143,12 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
   Collected<BegunContact> begun;
   const SearchContext context{p, law, parameters, time_step, grains, separating_direction};
   parallel_ranges(n_packs, 1,
-                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t pack = begin; pack < end; ++pack)
                     {
                       const std::size_t from = pack * pack_width, to = std::min(from + pack_width, searches.size());
-                      search_contacts(std::span(searches).subspan(from, to - from), context, pack_losses[pack],
-                                      begun.of(thread));
+                      search_contacts(searches, from, to, context, pack_losses[pack], begun.of(part));
                     }
                   });
   for (const ContactLosses &lost : pack_losses)
@@ -183,228 +156,79 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
   n_searches += static_cast<std::int64_t>(searches.size());
 
   // Contacts that began or ended take and leave their slots one by one.
-  std::vector<std::int32_t> changed; // pairs
-  const auto leave = [&](const std::int32_t pair)
-  {
-    slot[pair] = apart;
-    group_rest_until[pair / group_size] = -infinity;
-    changed.push_back(pair);
-  };
-  const auto enter = [&](const std::int32_t pair, const std::int32_t new_slot)
-  {
-    slot[pair] = new_slot;
-    changed.push_back(pair);
-  };
   for (const ContactSearch &s : searches)
   {
     n_undecided += s.is_undecided;
     if (s.is_touching)
       continue;
-    rest_until[s.pair] = p.motion[s.first] + p.motion[s.second] + s.gap;
-    if (s.slot == apart)
-      continue;
-    const ContactState<double> state = grains.get(s.slot);
-    losses += separate(state, state.normal, motion_of(p, s.first, s.second, time_step).displacement(state.point));
-    grains.remove(s.slot);
-    leave(s.pair);
+    const double rest = p.motion[s.first] + p.motion[s.second] + s.gap;
+    if (s.slot != apart)
+    {
+      const ContactState<double> state = grains.get(s.slot);
+      losses += separate(state, state.normal, motion_of(p, s.first, s.second, time_step).displacement(state.point));
+      grains.remove(s.slot);
+      slot[s.pair] = apart;
+    }
+    rest_until[s.pair] = rest;
   }
-  begun.for_each([&](const BegunContact &c)
-                 { enter(c.pair, grains.add(c.pair, c.first, c.second, c.state, c.resultant)); });
+  begun.for_each(
+      [&](const BegunContact &c)
+      {
+        ContactSearch &s = searches[c.search];
+        s.slot = slot[s.pair] = grains.add(s.pair, s.first, s.second, c.state, slot_near(s.pair));
+        grain_loads.take(s.slot, s.first, s.second);
+        rest_until[s.pair] = infinity;
+      });
   ended_spheres.for_each(
       [&](const std::int32_t s)
       {
         const std::int32_t i = spheres.first[s], j = spheres.second[s], pair = spheres.pair[s];
         const SphereGeometry<double> g = sphere_geometry(p, i, j);
         losses += separate(spheres.get(s), g.normal, motion_of(p, i, j, time_step).displacement(g.point));
-        rest_until[pair] = p.motion[i] + p.motion[j] - g.overlap;
         spheres.remove(s);
-        leave(pair);
+        slot[pair] = apart;
+        rest_until[pair] = p.motion[i] + p.motion[j] - g.overlap;
       });
-  begun_spheres.for_each(
+  std::vector<NewSphereContact> new_spheres;
+  screened.new_spheres.for_each(
       [&](const std::int32_t pair)
       {
         const std::int32_t i = list.first[pair], j = list.second[pair];
-        const NewSphereContact s = begin_spheres(p, pair, i, j, law, time_step, losses);
-        enter(pair, spheres.add(pair, i, j, s.state, s.resultant));
+        SphereContactState<double> state = begin_spheres(p, i, j, law);
+        const FollowedSpheres<double> f = follow(state, motion_of(p, i, j, time_step), law, losses);
+        slot[pair] = spheres.add(pair, i, j, state, slot_near(pair));
+        sphere_loads.take(slot[pair], i, j);
+        rest_until[pair] = infinity;
+        new_spheres.push_back({slot[pair], {f.force, f.torque1, f.torque2}});
       });
-  for (std::size_t k = 0; k < changed.size() && incidence.is_current; ++k)
-    for (const std::int32_t i : {list.first[changed[k]], list.second[changed[k]]})
-      renew_incidence_row(i);
-  if (!incidence.is_current)
-    renew_incidence(p.size());
+
+  list_bodies(p.size());
+  for (const ContactSearch &s : searches)
+    if (s.is_touching)
+      grain_loads.add(s.slot, s.resultant);
+  for (const NewSphereContact &s : new_spheres)
+    sphere_loads.add(s.slot, s.resultant);
   watch.lap(times.searches);
 }
 
-void PairContacts::renew_incidence_row(const std::int32_t i)
+void PairContacts::list_bodies(const std::size_t n_grains)
 {
-  const std::int32_t end = incidence.row[i + 1];
-  std::int32_t next = incidence.row[i];
-  const auto add = [&](const std::int32_t pair, const int side)
-  {
-    if (slot[pair] == apart)
-      return;
-    if (next == end)
-    {
-      incidence.is_current = false; // the row overflows
-      return;
-    }
-    incidence.entries[next++] = slot[pair] * 4 + are_spheres(list.first[pair], list.second[pair]) * 2 + side;
-  };
-  for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
-    add(pair, 0);
-  for (auto k = list.incoming_row[i]; k < list.incoming_row[i + 1]; ++k)
-    add(list.incoming[k], 1);
-  incidence.count[i] = next - incidence.row[i];
+  if (!grain_loads.is_current())
+    grain_loads.list_bodies(grains.first, grains.second, n_grains);
+  if (!sphere_loads.is_current())
+    sphere_loads.list_bodies(spheres.first, spheres.second, n_grains);
 }
 
-void PairContacts::renew_incidence(const std::size_t n)
+/// Slot of a touching pair of the same kind shortly before a pair in the list, mostly of the same grain; `apart` if
+/// there is none.
+std::int32_t PairContacts::slot_near(const std::int32_t pair) const
 {
-  constexpr std::int32_t room = 3; // for contacts that begin
-  incidence.row.assign(n + 1, 0);
-  incidence.count.resize(n);
-  parallel_for(n,
-               [&](const std::size_t i)
-               {
-                 std::int32_t count = 0;
-                 for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
-                   count += slot[pair] != apart;
-                 for (auto k = list.incoming_row[i]; k < list.incoming_row[i + 1]; ++k)
-                   count += slot[list.incoming[k]] != apart;
-                 incidence.row[i + 1] = count + room;
-               });
-  std::partial_sum(incidence.row.begin(), incidence.row.end(), incidence.row.begin());
-  incidence.entries.resize(incidence.row[n]);
-  incidence.is_current = true;
-  parallel_for(n, [&](const std::size_t i) { renew_incidence_row(static_cast<std::int32_t>(i)); });
-}
-
-void PairContacts::renew(VerletList new_list, const Particles &particles)
-{
-  std::vector<std::int32_t> new_slot(new_list.size(), apart);
-  std::vector<double> new_rest(new_list.size(), -infinity);
-  std::vector<Eigen::Vector3f> new_direction(new_list.size(), Eigen::Vector3f::Zero());
-  Collected<std::int32_t> left;
-  const bool had_list = !list.row.empty();
-  parallel_ranges(particles.size(), 64,
-                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
-                  {
-                    for (std::size_t i = begin; i < end; ++i)
-                    {
-                      // Both rows are sorted by the second partner: walk them together.
-                      std::size_t old_pair = had_list ? list.row[i] : 0;
-                      const std::size_t old_end = had_list ? list.row[i + 1] : 0;
-                      const auto leave = [&]
-                      {
-                        if (slot[old_pair] != apart)
-                          left.of(thread).push_back(static_cast<std::int32_t>(old_pair));
-                        ++old_pair;
-                      };
-                      for (auto pair = new_list.row[i]; pair < new_list.row[i + 1]; ++pair)
-                      {
-                        while (old_pair < old_end && list.second[old_pair] < new_list.second[pair])
-                          leave();
-                        if (old_pair < old_end && list.second[old_pair] == new_list.second[pair])
-                        {
-                          new_slot[pair] = slot[old_pair];
-                          new_rest[pair] = rest_until[old_pair];
-                          new_direction[pair] = separating_direction[old_pair];
-                          ++old_pair;
-                        }
-                      }
-                      while (old_pair < old_end)
-                        leave();
-                    }
-                  });
-  left.for_each(
-      [&](const std::int32_t pair)
-      {
-        if (are_spheres(list.first[pair], list.second[pair]))
-        {
-          losses += release(spheres.get(slot[pair]));
-          spheres.remove(slot[pair]);
-        }
-        else
-        {
-          losses += release(grains.get(slot[pair]));
-          grains.remove(slot[pair]);
-        }
-      });
-  is_sphere.resize(particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    is_sphere[i] = particles.shape[i].is_sphere();
-  list = std::move(new_list);
-  slot = std::move(new_slot);
-  rest_until = std::move(new_rest);
-  separating_direction = std::move(new_direction);
-  std::vector<std::int32_t> grain_pairs, sphere_pairs;
-  for (std::size_t pair = 0; pair < list.size(); ++pair)
-    if (slot[pair] != apart)
-    {
-      const bool is_sphere = are_spheres(list.first[pair], list.second[pair]);
-      (is_sphere ? sphere_pairs : grain_pairs).push_back(static_cast<std::int32_t>(pair));
-    }
-  compact(grains, grain_pairs, slot);
-  compact(spheres, sphere_pairs, slot);
-  group_rest_until.assign((list.size() + group_size - 1) / group_size, -infinity);
-  incidence.is_current = false;
-}
-
-void PairContacts::reorder(const std::vector<std::int32_t> &order, const Particles &reordered)
-{
-  const std::vector<std::int32_t> new_index = inverse_order(order);
-  for (std::size_t i = 0; i < is_sphere.size(); ++i)
-    is_sphere[i] = reordered.shape[i].is_sphere();
-  struct Place
-  {
-    std::int32_t first, second, pair;
-    bool is_exchanged;
-  };
-  std::vector<Place> places(list.size());
-  for (std::size_t pair = 0; pair < list.size(); ++pair)
-  {
-    const std::int32_t i = new_index[list.first[pair]], j = new_index[list.second[pair]];
-    places[pair] = {std::min(i, j), std::max(i, j), static_cast<std::int32_t>(pair), i > j};
-  }
-  std::sort(places.begin(), places.end(),
-            [](const Place &a, const Place &b)
-            { return a.first != b.first ? a.first < b.first : a.second < b.second; });
-
-  VerletList sorted;
-  sorted.row.assign(reordered.size() + 1, 0);
-  std::vector<std::int32_t> sorted_slot;
-  std::vector<double> sorted_rest;
-  std::vector<Eigen::Vector3f> sorted_direction;
-  const auto exchange = [](auto &store, const std::int32_t slot)
-  {
-    auto state = store.get(slot);
-    exchange_bodies(state);
-    store.set(slot, state);
-  };
-  for (const Place &place : places)
-  {
-    ++sorted.row[place.first + 1];
-    sorted.first.push_back(place.first);
-    sorted.second.push_back(place.second);
-    sorted_slot.push_back(slot[place.pair]);
-    sorted_rest.push_back(rest_until[place.pair]);
-    const float sign = place.is_exchanged ? -1.f : 1.f;
-    sorted_direction.push_back(sign * separating_direction[place.pair]);
-    if (slot[place.pair] == apart)
-      continue;
-    const std::int32_t s = slot[place.pair];
-    const bool is_sphere = are_spheres(place.first, place.second);
-    if (place.is_exchanged && is_sphere)
-      exchange(spheres, s);
-    else if (place.is_exchanged)
-      exchange(grains, s);
-    (is_sphere ? spheres.first : grains.first)[s] = place.first;
-    (is_sphere ? spheres.second : grains.second)[s] = place.second;
-  }
-  std::partial_sum(sorted.row.begin(), sorted.row.end(), sorted.row.begin());
-  list = std::move(sorted);
-  slot = std::move(sorted_slot);
-  rest_until = std::move(sorted_rest);
-  separating_direction = std::move(sorted_direction);
+  constexpr std::int32_t reach = 64;
+  const auto is_of_spheres = [&](const std::int32_t k) { return are_spheres(list.first[k], list.second[k]); };
+  for (std::int32_t k = pair - 1; k >= std::max(pair - reach, 0); --k)
+    if (slot[k] != apart && is_of_spheres(k) == is_of_spheres(pair))
+      return slot[k];
+  return apart;
 }
 
 void PairContacts::refresh(const Particles &p)

@@ -4,6 +4,7 @@
 #include "dem/force/contact_parameters.h"
 #include "dem/force/contact_state.h"
 #include "dem/force/contact_store.h"
+#include "dem/force/load_sums.h"
 #include "dem/neighbour/verlet_list.h"
 #include "dem/state/particles.h"
 
@@ -31,7 +32,7 @@ struct PairContacts
   std::vector<std::int32_t>
       slot; ///< of each pair in `grains` or, for two spheres, in `spheres`; `apart` if not touching
   /// A pair apart cannot touch before the motions of both grains add up to this [m]: it is left alone until then, which
-  /// is exact.
+  /// is exact. Infinite for a touching pair, which screening has not to look at.
   std::vector<double> rest_until;
   /// Direction that separates a pair apart, from which its next search starts; zero for a pair never searched.
   std::vector<Eigen::Vector3f> separating_direction;
@@ -40,18 +41,6 @@ struct PairContacts
   ContactLosses losses;         ///< since the start [J]
   std::int64_t n_undecided = 0; ///< searches that ended without a decision, since the start
   std::int64_t n_searches = 0;  ///< since the start
-
-  /// Screening leaves alone whole groups of pairs until the largest motion of any grain reaches this [m].
-  std::vector<double> group_rest_until;
-
-  /// Touching contacts of each grain, by which it sums its forces: entries[row[i]] .. entries[row[i] + count[i]], with
-  /// room for some more. Rows follow the contacts that begin or end; where one overflows, all are made anew.
-  struct Incidence
-  {
-    std::vector<std::int32_t> row, count, entries;
-    bool is_current = false;
-  };
-  Incidence incidence;
 
   static constexpr std::int32_t apart = -1;
 
@@ -74,18 +63,10 @@ struct PairContacts
                PhaseTimes &times);
 
   /// Adds what the contacts give to grain i, in a fixed order.
-  void add_resultants(const std::int32_t i, GrainLoad &load) const
+  void add_load(const std::size_t i, BodyLoad &load) const
   {
-    GrainLoad sum = load; // stays in registers
-    for (auto k = incidence.row[i]; k < incidence.row[i] + incidence.count[i]; ++k)
-    {
-      const std::int32_t entry = incidence.entries[k];
-      if (entry & 2)
-        sum.add(spheres.resultant[entry >> 2], entry & 1);
-      else
-        sum.add(grains.resultant[entry >> 2], entry & 1);
-    }
-    load = sum;
+    grain_loads.add_load(i, load);
+    sphere_loads.add_load(i, load);
   }
 
   /// Has every contact searched anew at the next step, e.g. after weights of grains have been changed.
@@ -95,8 +76,13 @@ struct PairContacts
   ContactEnergy total_energy() const;
 
 private:
-  void renew_incidence(std::size_t n_grains);
-  void renew_incidence_row(std::int32_t i);
+  struct Screened;
+
+  Screened screen(const Particles &particles);
+  std::int32_t slot_near(std::int32_t pair) const;
+  void list_bodies(std::size_t n_grains);
+
+  LoadSums grain_loads, sphere_loads;
 };
 
 } // namespace bergamo::dem

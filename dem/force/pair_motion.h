@@ -1,7 +1,6 @@
 #pragma once
 
 #include "dem/core/pack_vectors.h"
-#include "dem/force/resultant.h"
 #include "dem/state/particles.h"
 
 namespace bergamo::dem
@@ -56,15 +55,5 @@ struct PairMotion
     return path + radius * turns * Real(time_step);
   }
 };
-
-/// Writes what contacts give to their bodies. @param target target(lane): where to
-template <class Real, class Target>
-void store_resultants(const Vector3<Real> &force, const Vector3<Real> &torque1, const Vector3<Real> &torque2,
-                      const Target &target)
-{
-  math::scatter_vectors<Real>(force, [&](const int lane) -> Vec4 & { return target(lane).force; });
-  math::scatter_vectors<Real>(torque1, [&](const int lane) -> Vec4 & { return target(lane).torque1; });
-  math::scatter_vectors<Real>(torque2, [&](const int lane) -> Vec4 & { return target(lane).torque2; });
-}
 
 } // namespace bergamo::dem

@@ -4,8 +4,6 @@
 #include "dem/core/rotation_matrix.h"
 #include "dem/force/pair_motion.h"
 
-#include <array>
-
 namespace bergamo::dem
 {
 namespace
@@ -41,12 +39,13 @@ Real contact_weight(const Real &weight1, const Real &weight2, const Vector3<Real
 
 } // namespace
 
-void search_contacts(const std::span<ContactSearch> searches, const SearchContext &context, ContactLosses &losses,
-                     std::vector<BegunContact> &begun)
+void search_contacts(const std::span<ContactSearch> searches, const std::size_t from, const std::size_t to,
+                     const SearchContext &context, ContactLosses &losses, std::vector<BegunContact> &begun)
 {
   const Particles &p = context.particles;
-  const int n = static_cast<int>(searches.size());
-  const auto search_of = [&](const int lane) -> const ContactSearch & { return searches[lane < n ? lane : 0]; };
+  const int n = static_cast<int>(to - from);
+  const auto search_of = [&](const int lane) -> const ContactSearch &
+  { return searches[from + (lane < n ? lane : 0)]; };
   const auto first = [&](const int lane) { return search_of(lane).first; };
   const auto second = [&](const int lane) { return search_of(lane).second; };
   const auto load = [&](const std::vector<double> &values, const auto &index)
@@ -69,7 +68,7 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
   const FoundContacts<Pack> found = search_pairs<Pack>(body1, body2, guess, n);
   for (int lane = 0; lane < n; ++lane)
   {
-    ContactSearch &search = searches[lane];
+    ContactSearch &search = searches[from + lane];
     search.is_undecided = found.is_undecided[lane];
     search.is_touching = math::lane(found.overlap, lane) > 0.;
     search.gap = -math::lane(found.overlap, lane);
@@ -100,23 +99,21 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
   lost.curvature = curvature_work(before, s, old_overlap);
   const Vector3<Pack> force =
       advance_contact(s, context.law, old_overlap, motion.displacement(s.point), context.time_step, lost);
-  std::array<Resultant, pack_width> resultant;
-  store_resultants<Pack>(force, (motion.half_line + s.point).cross(force), (motion.half_line - s.point).cross(force),
-                         [&](const int lane) -> Resultant & { return resultant[lane]; });
+  const Vector3<Pack> torque1 = (motion.half_line + s.point).cross(force),
+                      torque2 = (motion.half_line - s.point).cross(force);
   for (int lane = 0; lane < n; ++lane)
   {
-    const ContactSearch &search = searches[lane];
+    ContactSearch &search = searches[from + lane];
     if (!search.is_touching)
       continue;
     losses += ContactLosses{math::lane(lost.friction, lane), math::lane(lost.viscous, lane),
                             math::lane(lost.curvature, lane)};
+    search.resultant = {math::lane<Pack>(force, lane), math::lane<Pack>(torque1, lane),
+                        math::lane<Pack>(torque2, lane)};
     if (search.slot >= 0)
-    {
       context.store.take_lane(search.slot, s, lane);
-      context.store.resultant[search.slot] = resultant[lane];
-      continue;
-    }
-    begun.push_back({search.pair, search.first, search.second, lane_of(s, lane), resultant[lane]});
+    else
+      begun.push_back({from + lane, lane_of(s, lane)});
   }
 }
 

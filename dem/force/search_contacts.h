@@ -4,6 +4,7 @@
 #include "dem/force/contact_parameters.h"
 #include "dem/force/contact_state.h"
 #include "dem/force/contact_store.h"
+#include "dem/force/load_sums.h"
 #include "dem/force/pair_motion.h"
 #include "dem/state/particles.h"
 
@@ -23,15 +24,15 @@ struct ContactSearch
 
   bool is_touching = false;
   bool is_undecided = false;
-  double gap = 0.; ///< lower bound where apart [m]
+  double gap = 0.;     ///< lower bound where apart [m]
+  Resultant resultant; ///< where touching
 };
 
 /// A contact that a search found and that did not touch last step: it has no slot yet.
 struct BegunContact
 {
-  std::int32_t pair, first, second;
+  std::size_t search; ///< which one it was
   ContactState<double> state;
-  Resultant resultant;
 };
 
 /// What searches work on.
@@ -47,9 +48,10 @@ struct SearchContext
   std::vector<Eigen::Vector3f> &direction;
 };
 
-/// Searches one pack of pairs at the present poses. @param searches at most pack_width, of different pairs
-/// @param[in,out] losses with the weights [J]; @param[in,out] begun appended to
-void search_contacts(std::span<ContactSearch> searches, const SearchContext &context, ContactLosses &losses,
-                     std::vector<BegunContact> &begun);
+/// Searches one pack of pairs at the present poses. @param searches of different pairs
+/// @param from, to which of them, at most pack_width; @param[in,out] losses with the weights [J]
+/// @param[in,out] begun appended to
+void search_contacts(std::span<ContactSearch> searches, std::size_t from, std::size_t to, const SearchContext &context,
+                     ContactLosses &losses, std::vector<BegunContact> &begun);
 
 } // namespace bergamo::dem

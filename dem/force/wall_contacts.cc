@@ -2,7 +2,7 @@
 
 #include "dem/contact/geometry.h"
 #include "dem/force/follow.h"
-#include "dem/neighbour/cell_grid.h"
+#include "dem/neighbour/spatial_order.h"
 
 #include <algorithm>
 #include <limits>
@@ -14,8 +14,8 @@ namespace bergamo::dem
 namespace
 {
 
-constexpr std::size_t group_size = 64; // candidates that are left alone together
-constexpr double no_rest = -std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_rest = -infinity;
 
 /// Rigid motion of a grain against a wall since the last step, as PairMotion.
 template <class Real>
@@ -113,8 +113,7 @@ void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall
         continue;
       fresh.rest_until.back() = rest_until[old->second];
       if (is_touching(old->second))
-        fresh.slot.back() =
-            fresh.touching.add(candidate, grain, plane, state(old->second), touching.resultant[slot[old->second]]);
+        fresh.slot.back() = fresh.touching.add(candidate, grain, plane, state(old->second));
       known.erase(old);
     }
     fresh.row[i + 1] = static_cast<std::int32_t>(fresh.wall.size());
@@ -122,7 +121,6 @@ void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall
   for (const auto &[key, k] : known)
     if (is_touching(k))
       fresh.losses += release(state(k));
-  fresh.group_rest_until.assign((fresh.size() + group_size - 1) / group_size, no_rest);
   *this = std::move(fresh);
 }
 
@@ -144,54 +142,54 @@ void WallContacts::remove_wall(const std::int32_t index)
   }
 }
 
+math::Mask<Pack> WallContacts::follow_block(const std::size_t block, const Particles &p,
+                                            const std::vector<PlaneWall> &walls, const ContactLaw &law,
+                                            const double time_step, Losses<Pack> &lost)
+{
+  const auto grain = [&](const int lane) { return touching.first[block * pack_width + lane]; };
+  const auto plane = [&](const int lane) { return touching.second[block * pack_width + lane]; };
+  const WallMotion<Pack> motion{
+      math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return walls[plane(lane)].velocity; }) -
+          math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.velocity[grain(lane)]; }),
+      math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.angular_velocity[grain(lane)]; }),
+      time_step};
+  ContactState<Pack> &state = touching.blocks[block];
+  const Followed<Pack> followed = follow(state, motion, law, lost);
+  loads.add(block, followed.force, state.point.cross(followed.force), Vector3<Pack>(0., 0., 0.));
+  return followed.is_due;
+}
+
+/// Candidates apart that may touch by now.
+Collected<std::int32_t> WallContacts::screen(const Particles &p, const std::vector<PlaneWall> &walls) const
+{
+  Collected<std::int32_t> candidates;
+  parallel_ranges(size(), 512,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t k = begin; k < end; ++k)
+                      if (!(p.motion[particle[k]] + walls[wall[k]].motion < rest_until[k]))
+                        candidates.of(part).push_back(static_cast<std::int32_t>(k));
+                  });
+  return candidates;
+}
+
 void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, const ContactLaw &law,
                            const ContactParameters &parameters, const double time_step)
 {
-  const auto due = follow_all(
-      touching, losses,
-      [&](const std::size_t block, Losses<Pack> &lost)
-      {
-        const auto grain = [&](const int lane) { return touching.first[block * pack_width + lane]; };
-        const auto plane = [&](const int lane) { return touching.second[block * pack_width + lane]; };
-        const WallMotion<Pack> motion{
-            math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return walls[plane(lane)].velocity; }) -
-                math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.velocity[grain(lane)]; }),
-            math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.angular_velocity[grain(lane)]; }),
-            time_step};
-        ContactState<Pack> &state = touching.blocks[block];
-        const Followed<Pack> followed = follow(state, motion, law, lost);
-        const Vector3<Pack> nothing(0., 0., 0.);
-        store_resultants<Pack>(followed.force, state.point.cross(followed.force), nothing,
-                               [&](const int lane) -> Resultant &
-                               { return touching.resultant[block * pack_width + lane]; });
-        return followed.is_due;
-      });
-
+  list_bodies(p.size(), walls.size());
+  const auto due = follow_all(touching, loads, losses,
+                              [&](const std::size_t block, Losses<Pack> &lost)
+                              { return follow_block(block, p, walls, law, time_step, lost); });
   std::vector<Located> located;
   due.for_each([&](const std::int32_t s) { located.push_back({touching.pair[s], 0., touching.get(s), {}}); });
-  double largest_motion = p.largest_motion;
-  for (const PlaneWall &plane : walls)
-    largest_motion += plane.motion;
-  for (std::size_t group = 0; group < group_rest_until.size(); ++group)
-  {
-    if (largest_motion < group_rest_until[group])
-      continue;
-    double slack = std::numeric_limits<double>::infinity();
-    for (std::size_t k = group * group_size; k < std::min((group + 1) * group_size, size()); ++k)
-    {
-      if (is_touching(k))
-        continue;
-      const double motion = p.motion[particle[k]] + walls[wall[k]].motion;
-      if (!(motion < rest_until[k]))
-        located.push_back({static_cast<std::int32_t>(k), 0., ContactState<double>::begin(), {}});
-      slack = std::min(slack, std::max(rest_until[k] - motion, 0.));
-    }
-    group_rest_until[group] = largest_motion + slack;
-  }
+  screen(p, walls).for_each(
+      [&](const std::int32_t k) {
+        located.push_back({k, 0., ContactState<double>::begin(), {}});
+      });
 
   constexpr std::size_t chunk_size = 16; // whose losses are summed together, whatever the threads
   std::vector<ContactLosses> chunk_losses((located.size() + chunk_size - 1) / chunk_size);
-  parallel_ranges(chunk_losses.size(), 4,
+  parallel_ranges(chunk_losses.size(), 1,
                   [&](const std::size_t, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t n = begin * chunk_size; n < std::min(end * chunk_size, located.size()); ++n)
@@ -209,40 +207,47 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
   {
     const std::int32_t k = l.candidate, i = particle[k];
     if (l.overlap > 0. && is_touching(k))
-    {
       touching.set(slot[k], l.state);
-      touching.resultant[slot[k]] = l.resultant;
-    }
     else if (l.overlap > 0.)
-      slot[k] = touching.add(k, i, wall[k], l.state, l.resultant);
+    {
+      slot[k] = touching.add(k, i, wall[k], l.state, k > 0 ? slot[k - 1] : apart);
+      loads.take(slot[k], i, body_of(wall[k], p.size()));
+      rest_until[k] = infinity;
+    }
     else
     {
+      if (is_touching(k))
+      {
+        losses +=
+            separate(l.state, l.state.normal, motion_of(p, i, walls[wall[k]], time_step).displacement(l.state.point));
+        touching.remove(slot[k]);
+        slot[k] = apart;
+      }
       rest_until[k] = p.motion[i] + walls[wall[k]].motion - l.overlap;
-      if (!is_touching(k))
-        continue;
-      losses +=
-          separate(l.state, l.state.normal, motion_of(p, i, walls[wall[k]], time_step).displacement(l.state.point));
-      touching.remove(slot[k]);
-      slot[k] = apart;
-      group_rest_until[k / group_size] = no_rest;
     }
   }
+  list_bodies(p.size(), walls.size());
+  for (const Located &l : located)
+    if (l.overlap > 0.)
+      loads.add(slot[l.candidate], l.resultant);
 
-  std::vector<Vec3> old_force;
-  for (PlaneWall &w : walls)
-    old_force.push_back(std::exchange(w.force, Vec3::Zero()));
-  for (std::size_t s = 0; s < touching.n_slots(); ++s)
-    if (touching.pair[s] != touching.free_slot)
-      walls[touching.second[s]].force -= touching.resultant[s].force.head<3>();
   for (std::size_t w = 0; w < walls.size(); ++w)
-    walls[w].work -= 0.5 * time_step * (old_force[w] + walls[w].force).dot(walls[w].velocity);
+  {
+    BodyLoad load;
+    loads.add_load(body_of(w, p.size()), load);
+    const Vec3 old_force = std::exchange(walls[w].force, load.force.head<3>());
+    walls[w].work -= 0.5 * time_step * (old_force + walls[w].force).dot(walls[w].velocity);
+  }
 }
 
-void WallContacts::add_resultants(const std::int32_t i, GrainLoad &load) const
+void WallContacts::list_bodies(const std::size_t n_grains, const std::size_t n_walls)
 {
-  for (auto k = row[i]; k < row[i + 1]; ++k)
-    if (is_touching(k))
-      load.add(touching.resultant[slot[k]], 0);
+  if (loads.is_current())
+    return;
+  std::vector<std::int32_t> wall_body;
+  for (const std::int32_t w : touching.second)
+    wall_body.push_back(body_of(w, n_grains));
+  loads.list_bodies(touching.first, wall_body, n_grains + n_walls);
 }
 
 void WallContacts::refresh()

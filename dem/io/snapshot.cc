@@ -87,12 +87,7 @@ void visit_arrays(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/particles/motion", s.particles.motion);
   visit("dem/walls", s.walls);
   visit("dem/pairs/rest_until", s.pairs.rest_until);
-  visit("dem/pairs/group_rest_until", s.pairs.group_rest_until);
-  visit("dem/pairs/grains/resultant", s.pairs.grains.resultant);
-  visit("dem/pairs/spheres/resultant", s.pairs.spheres.resultant);
   visit("dem/wall_contacts/rest_until", s.wall_contacts.rest_until);
-  visit("dem/wall_contacts/group_rest_until", s.wall_contacts.group_rest_until);
-  visit("dem/wall_contacts/resultant", s.wall_contacts.touching.resultant);
   visit("dem/hidden/position_when_built", h.position_when_built);
   visit("dem/hidden/wall_motion_when_built", h.wall_motion_when_built);
   visit("dem/hidden/external_work", h.external_work);
@@ -111,11 +106,9 @@ void visit_indices(Simulation &s, Visit &&visit)
   visit("dem/pairs/grains/pair", s.pairs.grains.pair);
   visit("dem/pairs/grains/first", s.pairs.grains.first);
   visit("dem/pairs/grains/second", s.pairs.grains.second);
-  visit("dem/pairs/grains/free", s.pairs.grains.free);
   visit("dem/pairs/spheres/pair", s.pairs.spheres.pair);
   visit("dem/pairs/spheres/first", s.pairs.spheres.first);
   visit("dem/pairs/spheres/second", s.pairs.spheres.second);
-  visit("dem/pairs/spheres/free", s.pairs.spheres.free);
   visit("dem/wall_contacts/row", s.wall_contacts.row);
   visit("dem/wall_contacts/particle", s.wall_contacts.particle);
   visit("dem/wall_contacts/wall", s.wall_contacts.wall);
@@ -123,7 +116,6 @@ void visit_indices(Simulation &s, Visit &&visit)
   visit("dem/wall_contacts/touching/pair", s.wall_contacts.touching.pair);
   visit("dem/wall_contacts/touching/first", s.wall_contacts.touching.first);
   visit("dem/wall_contacts/touching/second", s.wall_contacts.touching.second);
-  visit("dem/wall_contacts/touching/free", s.wall_contacts.touching.free);
   visit("dem/index_of_id", s.index_of_id);
 }
 

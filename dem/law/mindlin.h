@@ -5,20 +5,18 @@
 namespace bergamo::dem
 {
 
-/// Tangential stiffness of a contact whose ellipse has two axes, over sqrt(overlap) [N/m^1.5].
+/// Tangential stiffness of a contact whose ellipse has two axes, over sqrt(overlap) [N/m^1.5]. The energy that a force
+/// stores in the spring for an overlap of one, f.C.f / 2, is scaled_energy(f) / scale: callers share the division.
 template <class Real>
 struct EllipticStiffness
 {
   Real major, minor;
   Vector3<Real> major_axis, minor_axis; ///< unit, tangential
-  Real major_compliance, minor_compliance;
+  Real scale;
 
   EllipticStiffness(const Real &major, const Real &minor, const Vector3<Real> &normal, const Vector3<Real> &major_axis)
-      : major(major), minor(minor), major_axis(major_axis), minor_axis(normal.cross(major_axis))
+      : major(major), minor(minor), major_axis(major_axis), minor_axis(normal.cross(major_axis)), scale(major * minor)
   {
-    const Real inverse = Real(1.) / (major * minor); // one division for two
-    major_compliance = inverse * minor;
-    minor_compliance = inverse * major;
   }
 
   Vector3<Real> increment(const Vector3<Real> &displacement) const
@@ -26,11 +24,10 @@ struct EllipticStiffness
     return major_axis * (major * major_axis.dot(displacement)) + minor_axis * (minor * minor_axis.dot(displacement));
   }
 
-  /// Energy stored in the spring by a force, for an overlap of one: f.C.f / 2.
-  Real energy(const Vector3<Real> &force) const
+  Real scaled_energy(const Vector3<Real> &force) const
   {
     const Real f1 = major_axis.dot(force), f2 = minor_axis.dot(force);
-    return Real(0.5) * (f1 * f1 * major_compliance + f2 * f2 * minor_compliance);
+    return Real(0.5) * (f1 * f1 * minor + f2 * f2 * major);
   }
 };
 
@@ -38,13 +35,20 @@ struct EllipticStiffness
 template <class Real>
 struct RoundStiffness
 {
-  Real stiffness, compliance;
+  Real scale;
 
-  explicit RoundStiffness(const Real &stiffness) : stiffness(stiffness), compliance(Real(1.) / stiffness) {}
+  explicit RoundStiffness(const Real &stiffness) : scale(stiffness) {}
 
-  Vector3<Real> increment(const Vector3<Real> &displacement) const { return displacement * stiffness; }
-  Real energy(const Vector3<Real> &force) const { return Real(0.5) * force.squaredNorm() * compliance; }
+  Vector3<Real> increment(const Vector3<Real> &displacement) const { return displacement * scale; }
+  Real scaled_energy(const Vector3<Real> &force) const { return Real(0.5) * force.squaredNorm(); }
 };
+
+/// Energy stored by a force in the tangential spring of a contact [J]. @param root square root of its overlap, > 0
+template <class Real, class Stiffness>
+Real tangential_energy(const Stiffness &stiffness, const Vector3<Real> &force, const Real &root)
+{
+  return stiffness.scaled_energy(force) / (stiffness.scale * root);
+}
 
 /// Tangential force after a step and the energy that the step lost [N, J].
 template <class Real>
@@ -68,15 +72,17 @@ TangentialStep<Real> tangential_step(const Stiffness &stiffness, const Real &roo
                                      const Real &limit)
 {
   using math::select;
-  const Real from = select(old_root <= Real(0.), root, old_root); // a NaN stays one, here and in what follows
-  const Real inverse = Real(1.) / (root * from);                  // one division for two
-  const Real one_over_root = inverse * from, one_over_old_root = inverse * root;
-  const Real shrink = select(from <= root, Real(1.), Real(root * one_over_old_root));
+  const Real from = select(old_root <= Real(0.), root, old_root);  // a NaN stays one, here and in what follows
+  const Real inverse = Real(1.) / (stiffness.scale * root * from); // one division for all
+  const Real share = inverse * from, old_share = inverse * root;
+  const Real shrink = select(from <= root, Real(1.), Real(root * old_share * stiffness.scale));
   const Vector3<Real> trial = old_force * shrink + stiffness.increment(displacement) * root;
-  const Real size = trial.norm();
-  const Vector3<Real> force = trial * select(size > limit, Real(limit / size), Real(1.));
+  const Real square = trial.squaredNorm();
+  const auto sticks = square <= limit * limit;
+  const Vector3<Real> force =
+      trial * select(sticks, Real(1.), Real(limit * math::inverse_sqrt(select(sticks, Real(1.), square))));
   const Real work = Real(0.5) * (old_force + force).dot(displacement);
-  return {force, work - (stiffness.energy(force) * one_over_root - stiffness.energy(old_force) * one_over_old_root)};
+  return {force, work - (stiffness.scaled_energy(force) * share - stiffness.scaled_energy(old_force) * old_share)};
 }
 
 /// The force that a contact had, turned with it onto a new tangent plane: magnitude kept (Wellmann 3.24 ff.).

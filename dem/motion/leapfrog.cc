@@ -92,7 +92,7 @@ bool advance(Particles &particles, const Vec3 &gravity, const double time_step)
   Collected<Found> found;
   const std::size_t n = particles.size(), n_packs = (n + pack_width - 1) / pack_width;
   parallel_ranges(n_packs, 8,
-                  [&](const std::size_t thread, const std::size_t begin, const std::size_t end)
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
                   {
                     bool is_finite = true;
                     Pack largest(0.);
@@ -101,7 +101,7 @@ bool advance(Particles &particles, const Vec3 &gravity, const double time_step)
                     double most = 0.;
                     for (int lane = 0; lane < pack_width; ++lane)
                       most = std::max(most, math::lane(largest, lane));
-                    found.of(thread).push_back({is_finite, most});
+                    found.of(part).push_back({is_finite, most});
                   });
   bool is_finite = true;
   double largest = 0.;

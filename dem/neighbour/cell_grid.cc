@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace bergamo::dem
 {
@@ -40,29 +39,6 @@ CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size)
   std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
   for (std::size_t i = 0; i < positions.size(); ++i)
     particles[next[cell_of[i]]++] = static_cast<std::int32_t>(i);
-}
-
-std::vector<std::int32_t> spatial_order(const std::span<const Vec3> positions, const double cell_size)
-{
-  CellGrid grid(positions, cell_size);
-  const auto by_place = [&](const std::int32_t i, const std::int32_t j)
-  {
-    for (int d = 0; d < 3; ++d)
-      if (positions[i][d] != positions[j][d])
-        return positions[i][d] < positions[j][d];
-    return i < j;
-  };
-  for (std::size_t cell = 0; cell + 1 < grid.begin.size(); ++cell)
-    std::sort(grid.particles.begin() + grid.begin[cell], grid.particles.begin() + grid.begin[cell + 1], by_place);
-  return std::move(grid.particles);
-}
-
-std::vector<std::int32_t> inverse_order(const std::span<const std::int32_t> order)
-{
-  std::vector<std::int32_t> new_index(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    new_index[order[i]] = static_cast<std::int32_t>(i);
-  return new_index;
 }
 
 } // namespace bergamo::dem

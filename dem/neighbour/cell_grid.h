@@ -21,11 +21,4 @@ struct CellGrid
   std::vector<std::int32_t> cell_of;
 };
 
-/// Order in which the particles lie cell by cell: order[new] = old. Neighbours in space become neighbours in memory.
-/// Within a cell by x, then y, then z: the order in which the particles came does not matter, but for two in one place.
-std::vector<std::int32_t> spatial_order(std::span<const Vec3> positions, double cell_size);
-
-/// new_index[old] for order[new] = old.
-std::vector<std::int32_t> inverse_order(std::span<const std::int32_t> order);
-
 } // namespace bergamo::dem

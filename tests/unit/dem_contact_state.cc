@@ -166,7 +166,7 @@ TEST_CASE("the tangential force obeys Coulomb's limit and slides along the motio
   CHECK((contact.s.forces.tangential - limit * force_direction).norm() < 1e-6 * limit);
   // Sliding at the limit over a length l loses limit * l less what the spring holds: T^2/(2 k).
   const double spring =
-      contact.s.tangential_stiffness().energy(contact.s.forces.tangential) / std::sqrt(contact.s.overlap);
+      tangential_energy(contact.s.tangential_stiffness(), contact.s.forces.tangential, std::sqrt(contact.s.overlap));
   CHECK(contact.losses.friction + spring ==
         Approx(contact.work - 0.5 * 1e9 * std::pow(1e-6, 1.5) * 1e-6).epsilon(1e-12));
   // Of that way the first 1e-6 loads the spring; the rest costs limit * cos(angle between force and sliding).

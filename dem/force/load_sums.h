@@ -1,0 +1,120 @@
+#pragma once
+
+#include "dem/core/pack_vectors.h"
+#include "dem/force/contact_store.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// What one contact gives to its bodies: the force on body 1 (body 2 gets the opposite) and both torques about the
+/// centres, with the contact's weight.
+struct Resultant
+{
+  Vec3 force = Vec3::Zero();                           ///< [N]
+  Vec3 torque1 = Vec3::Zero(), torque2 = Vec3::Zero(); ///< [N m]
+};
+
+/// Force and torque on one body, in one line of the cache; the fourth numbers mean nothing.
+struct alignas(64) BodyLoad
+{
+  Vec4 force = Vec4::Zero();  ///< [N]
+  Vec4 torque = Vec4::Zero(); ///< about the centre [N m]
+
+  BodyLoad &operator+=(const BodyLoad &other)
+  {
+    force += other.force;
+    torque += other.torque;
+    return *this;
+  }
+};
+
+/// Sums what contacts give to their bodies without locks, and the same bits on any number of threads: the slots of the
+/// contacts make chunks of fixed size, a chunk sums by itself for each of its bodies, and a body adds up what its
+/// chunks hold for it, in their order. Neighbours share chunks, so that a chunk has far fewer bodies than contacts and
+/// sums within the core's own cache.
+class LoadSums
+{
+public:
+  std::size_t n_chunks() const { return count.size(); }
+
+  /// Whether the bodies of each chunk are listed for the slots as they are; if not, list_bodies() comes first.
+  bool is_current() const { return current; }
+  void slots_were_moved() { current = false; }
+
+  /// Lists the bodies of each chunk; what chunks have summed for their bodies stays.
+  /// @param first, second bodies by slot, in [0, n_bodies)
+  void list_bodies(const std::vector<std::int32_t> &first, const std::vector<std::int32_t> &second,
+                   std::size_t n_bodies);
+
+  /// Follows a slot that has been given to a contact of two bodies; is_current() no longer where room is short.
+  void take(std::int32_t slot, std::int32_t first, std::int32_t second);
+
+  /// Begins the sums of a chunk at zero.
+  void start(const std::size_t chunk)
+  {
+    for (auto entry = row[chunk]; entry < row[chunk] + count[chunk]; ++entry)
+      load[entry] = {};
+  }
+
+  /// Adds what a block of contacts gives, in the order of the slots; an unused slot must give nothing.
+  void add(const std::size_t block, const Vector3<Pack> &force, const Vector3<Pack> &torque1,
+           const Vector3<Pack> &torque2)
+  {
+    alignas(64) Vec4 f[pack_width], t1[pack_width], t2[pack_width];
+    math::scatter_vectors<Pack>(force, [&](const int lane) -> Vec4 & { return f[lane]; });
+    math::scatter_vectors<Pack>(torque1, [&](const int lane) -> Vec4 & { return t1[lane]; });
+    math::scatter_vectors<Pack>(torque2, [&](const int lane) -> Vec4 & { return t2[lane]; });
+    const Targets *targets = &target[block * pack_width];
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      BodyLoad &on1 = load[targets[lane].first], &on2 = load[targets[lane].second];
+      on1.force += f[lane];
+      on1.torque += t1[lane];
+      on2.force -= f[lane];
+      on2.torque += t2[lane];
+    }
+  }
+
+  /// Adds what the contact of one slot gives.
+  void add(const std::int32_t slot, const Resultant &r)
+  {
+    BodyLoad &on1 = load[target[slot].first], &on2 = load[target[slot].second];
+    on1.force.head<3>() += r.force;
+    on1.torque.head<3>() += r.torque1;
+    on2.force.head<3>() -= r.force;
+    on2.torque.head<3>() += r.torque2;
+  }
+
+  /// Adds to `sum` what all contacts give to a body.
+  void add_load(const std::size_t body_index, BodyLoad &sum) const
+  {
+    if (n_chunks() == 0)
+      return;
+    for (auto k = body_row[body_index]; k < body_row[body_index] + body_count[body_index]; ++k)
+      sum += load[body_entry[k]];
+  }
+
+private:
+  /// Where the contact of a slot adds to.
+  struct Targets
+  {
+    std::int32_t first = 0, second = 0;
+  };
+
+  std::int32_t entry_of(std::size_t chunk, std::int32_t body_index);
+  bool list_entry(std::int32_t body_index, std::int32_t entry);
+
+  bool current = false;
+  // Entries of chunk c: row[c] .. row[c] + count[c], with room for more up to row[c + 1].
+  std::vector<std::int32_t> row, count;
+  std::vector<std::int32_t> body; // by entry
+  std::vector<BodyLoad> load;     // by entry, of this step
+  std::vector<Targets> target;    // by slot
+  // Entries of body b, in the order of the chunks: body_entry[body_row[b]] .. + body_count[b], with room as above.
+  std::vector<std::int32_t> body_row, body_count, body_entry;
+};
+
+} // namespace bergamo::dem
