@@ -5,8 +5,8 @@
 namespace bergamo::dem
 {
 
-/// Contact search without a guess. Decides every pair: from the centre line first, then, where that stalls or the
-/// overlap is suspiciously deep, from directions spread over the sphere; a pair that stays open is `undecided`.
+/// Contact search without a guess. Decides every pair: from the centre line first, then, where that stalls or may have
+/// found another minimum than the least, by bounds over all directions; a pair that stays open is `undecided`.
 /// Bodies must not share their centre.
 ContactGeometry find_contact(const BodyPose &body1, const BodyPose &body2);
 

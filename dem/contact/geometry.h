@@ -99,7 +99,7 @@ inline PlacedSupport<double> support(const BodyPose &body, const Vec3 &normal)
 
 enum class ContactStatus
 {
-  touching,  ///< delta >= 0, the common normal is converged
+  touching,  ///< delta >= 0, the common normal is converged or, at a kink, proven
   separated, ///< a separating direction is known; delta < 0 is minus a lower bound of the gap
   undecided  ///< no converged minimum found; the best direction is returned and the caller counts it
 };

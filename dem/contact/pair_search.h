@@ -70,8 +70,10 @@ FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body
   FoundContacts<Real> found{e.c, e.phi, e.arm1, e.arm2, e.radii1, e.radii2};
   found.n_evaluations = search.n_evaluations * n;
   const math::Mask<Real> is_number = e.phi == e.phi; // a state that is none stops the run elsewhere
-  const math::Mask<Real> is_doubtful =
-      is_number && (search.is_open || is_saddle(search) || (!is_known && is_suspicious(search)));
+  math::Mask<Real> is_doubtful = search.is_open || is_saddle(search);
+  if (math::any(!is_known))
+    is_doubtful = is_doubtful || (!is_known && is_suspicious(search));
+  is_doubtful = is_doubtful && is_number;
   if (!math::any(is_doubtful))
     return found;
   for (int k = 0; k < n; ++k)

@@ -320,7 +320,8 @@ TEST_CASE("aligned faces of box-like grains")
 TEST_CASE("box-like grains face to face, shifted and turned in space, are decided")
 {
   // The direction across the faces gives phi = 1e-3, so the overlap found is no larger (rounding 1e-14, solver 5e-12).
-  // Near it phi has a kink, where Newton's step is too long by 1/(q - 1) = 2/eps - 1: 39 for an exponent of 0.05.
+  // Near it phi has a kink, where Newton's step is too long by 1/(q - 1) = 2/eps - 1: 39 for an exponent of 0.05. In
+  // the middle of the flat faces about a hundred evaluations more prove that no other direction has less.
   for (const double eps : {0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8})
     for (const bool is_turned : {false, true})
     {
@@ -344,7 +345,7 @@ TEST_CASE("box-like grains face to face, shifted and turned in space, are decide
       CAPTURE(eps, is_turned);
       CHECK(n_undecided == 0);
       CHECK(n_wrong == 0);
-      CHECK(n_evaluations < 150. * n);
+      CHECK(n_evaluations < 200. * n);
     }
 }
 
