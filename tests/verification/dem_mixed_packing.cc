@@ -100,7 +100,8 @@ TEST_CASE("spheres move the same by their own path and as superquadrics of expon
   // all sides keep such differences small; what grows them are the few loose grains, which may be hit hundreds of times
   // by factors of two. Found: 1e-11 m for the worst grain. A wrong term in either path would show in the motion itself,
   // at a thousandth or more of it: the bound is a hundredth of that.
-  double apart = 0., turned = 0., moved = 0., rotated = 0., force_error = 0., force = 0.;
+  double apart = 0., turned = 0., moved = 0., rotated = 0., force = 0.;
+  std::vector<double> force_errors;
   for (std::size_t i = 0; i < n; ++i)
   {
     const Particles &a = spheres.particles, &b = superquadrics.particles;
@@ -109,14 +110,18 @@ TEST_CASE("spheres move the same by their own path and as superquadrics of expon
     turned = std::max(turned, a.orientation[i].angularDistance(b.orientation[j]));
     moved = std::max(moved, (a.position[i] - packing.particles.position[a.id[i]]).norm());
     rotated = std::max(rotated, a.orientation[i].angularDistance(packing.particles.orientation[a.id[i]]));
-    force_error = std::max(force_error, (a.force[i] - b.force[j]).norm());
+    force_errors.push_back((a.force[i] - b.force[j]).norm());
     force = std::max(force, a.force[i].norm());
   }
-  CAPTURE(apart, moved, turned, rotated, force_error, force);
+  std::sort(force_errors.begin(), force_errors.end());
+  const double median = force_errors[n / 2], of_nearly_all = force_errors[n * 19 / 20];
+  CAPTURE(apart, moved, turned, rotated, median, of_nearly_all, force);
   CHECK(moved > 5e-5); // the wall was followed
   CHECK(apart < 1e-5 * moved);
   CHECK(turned < 1e-5 * rotated);
-  CHECK(force_error < 1e-4 * force); // of the one grain that is being hit: its stiff contact magnifies what is apart
+  // Not of the one or other loose grain that is just being hit: its stiff contact magnifies what is apart.
+  CHECK(median < 1e-5 * force);
+  CHECK(of_nearly_all < 1e-4 * force);
 
   // Sums over all grains and steps, on which single loose grains have little weight.
   const GrainEnergy a = spheres.energy(), b = superquadrics.energy();
