@@ -117,11 +117,9 @@ public:
     copy_numbers(pack, lane, blocks[slot / pack_width], slot % pack_width);
   }
 
-  /// Fetches a block ahead, if there is one.
-  void prefetch(const std::size_t block) const
+  /// Fetches a block ahead.
+  [[gnu::always_inline]] void prefetch(const std::size_t block) const
   {
-    if (block >= n_blocks())
-      return;
     const auto *line = reinterpret_cast<const char *>(&blocks[block]);
     for (std::size_t byte = 0; byte < sizeof(State<Pack>); byte += 64)
       __builtin_prefetch(line + byte);

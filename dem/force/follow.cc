@@ -16,12 +16,31 @@ PairMotion<Pack> motion_of(const ContactStore<State> &store, const std::size_t b
           time_step};
 }
 
+constexpr std::size_t blocks_ahead = 2;
+
+/// Fetches ahead what a block will follow. Inlined by force: g++ 12 leaves out a call that does nothing but fetch.
+template <template <class> class State>
+BERGAMO_INLINE void prefetch(const ContactStore<State> &store, const std::size_t block, const Particles &p)
+{
+  if (block >= store.n_blocks())
+    return;
+  store.prefetch(block);
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    const std::int32_t j = store.second[block * pack_width + lane];
+    __builtin_prefetch(&p.position[j]);
+    __builtin_prefetch(&p.velocity[j]);
+    __builtin_prefetch(&p.angular_velocity[j]);
+  }
+}
+
 } // namespace
 
 math::Mask<Pack> follow_block(ContactStore<ContactState> &store, LoadSums &loads, const std::size_t block,
                               const Particles &particles, const ContactLaw &law, const double time_step,
                               Losses<Pack> &losses)
 {
+  prefetch(store, block + blocks_ahead, particles);
   ContactState<Pack> &state = store.blocks[block];
   const PairMotion<Pack> motion = motion_of(store, block, particles, time_step);
   const Followed<Pack> followed = follow(state, motion, law, losses);
@@ -34,6 +53,7 @@ math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, LoadSums 
                               const Particles &particles, const ContactLaw &law, const double time_step,
                               Losses<Pack> &losses)
 {
+  prefetch(store, block + blocks_ahead, particles);
   const FollowedSpheres<Pack> followed =
       follow(store.blocks[block], motion_of(store, block, particles, time_step), law, losses);
   loads.add(block, followed.force, followed.torque1, followed.torque2);

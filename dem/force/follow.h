@@ -78,7 +78,6 @@ Collected<std::int32_t> follow_all(const Store &store, LoadSums &loads, ContactL
                       const std::size_t last = std::min((chunk + 1) * blocks_per_chunk, store.n_blocks());
                       for (std::size_t block = chunk * blocks_per_chunk; block < last; ++block)
                       {
-                        store.prefetch(block + 2);
                         const math::Mask<Pack> mask = follow(block, lost);
                         if (math::any(mask))
                           for (int lane = 0; lane < pack_width; ++lane)
