@@ -31,6 +31,17 @@ StepTiming time_steps(const dem::Simulation &packing, const int n_steps)
   return timing;
 }
 
+double time_further_steps(dem::Simulation &simulation, const int n_steps)
+{
+  constexpr int n_first = 3;
+  for (int n = 0; n < n_first; ++n)
+    simulation.step();
+  const auto start = std::chrono::steady_clock::now();
+  for (int n = 0; n < n_steps; ++n)
+    simulation.step();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 Spread spread(std::vector<double> values)
 {
   std::sort(values.begin(), values.end());

@@ -81,13 +81,15 @@ void advance_forces(const ContactLaw &law, const Vector3<Real> &normal, const Re
   const Real pushing = elastic_force + damping * approach * Real(1. / time_step);
   const Real normal_force = math::select(pushing <= Real(0.), Real(0.), pushing); // a NaN stays one and stops the run
   const Real old_elastic = Real(0.4) * normal_stiffness * old_root * old_overlap * old_overlap;
-  losses.viscous +=
+  const Real viscous =
       Real(0.5) * (forces.normal + normal_force) * approach - (Real(0.4) * elastic_force * overlap - old_elastic);
+  losses.viscous += viscous;
 
   const TangentialStep<Real> step =
       tangential_step(tangential, root, old_root, forces.tangential, sliding, Real(Real(law.friction) * normal_force));
   losses.friction += step.loss;
-  forces = {step.force, normal_force};
+  // The last force acts through the loss alone: if it was no number, this one is none, and the grain gets named.
+  forces = {step.force, normal_force + Real(0.) * viscous};
 }
 
 } // namespace bergamo::dem

@@ -181,8 +181,8 @@ const Outcome &pouring_on_one_thread()
     CHECK(s.pairs.n_undecided == 0);
     // Several threads take part in the parallel loops, that is where there are two parts of the least size: 128 grains
     // or 16 packs of them, 128 packs of pairs, two packs of searches, two chunks of 16 wall contacts (all those that
-    // touch, where the friction is changed). Chunks of touching contacts are as large as all of them here: a packing
-    // under compression, below, has more.
+    // touch, where the friction is changed). Of touching contacts there is one chunk here, and there are
+    // several in the case above.
     CHECK(s.particles.size() >= 16 * pack_width);
     CHECK(s.pairs.list.size() > 128 * pack_width);
     CHECK(touching_walls > 16);
@@ -233,6 +233,40 @@ TEST_CASE("a packing under compression has the same bits on 1, 2, 3 and 8 thread
   for (const std::uint64_t hash : loose_hashes)
     CHECK(hash == loose_hashes.front());
   CHECK(hashes.front() != loose_hashes.front());
+}
+
+TEST_CASE("many chunks of contacts have the same bits on 1, 2, 3 and 8 threads")
+{
+  // Grains in rows that overlap, every other one a sphere, fly apart and into one another: contacts of all kinds begin
+  // and end in some chunks of slots each.
+  constexpr int n_side = 11;
+  constexpr double radius = 0.5e-3;
+  Particles grains;
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < n_side * n_side * n_side; ++i)
+  {
+    const double exponent = (i / 2) % 2 == 0 ? 1. : 0.8;
+    grains.add({Vec3::Constant(radius), exponent, exponent}, 2650.,
+               1.99 * radius * Vec3(i % n_side, i / n_side % n_side, i / (n_side * n_side)), Quaternion::Identity());
+    grains.velocity.back() = 0.2 * Vec3(normal(generator), normal(generator), normal(generator));
+  }
+  SimulationParameters parameters = soft_parameters();
+  const Box box{Vec3::Constant(-0.995 * radius), Vec3::Constant(1.99 * radius * (n_side - 0.5))};
+  std::vector<std::uint64_t> hashes;
+  for (const int n : {1, 2, 3, 8})
+  {
+    const Threads threads(n);
+    Simulation s(parameters, grains, box_walls(box));
+    for (int i = 0; i < 150; ++i)
+      s.step();
+    CHECK(s.pairs.grains.n_chunks() > 1);
+    CHECK(s.pairs.spheres.n_chunks() > 0);
+    CHECK(s.n_rebuilds > 1);
+    hashes.push_back(hash_with_ids(s));
+  }
+  for (const std::uint64_t hash : hashes)
+    CHECK(hash == hashes.front());
 }
 
 TEST_CASE("10 000 steps of pouring grains have the same bits on 1, 2, 3 and 8 threads")
