@@ -25,7 +25,7 @@ State<double> lane_of(const State<Pack> &pack, const int lane)
 }
 
 /// Slots that belong together: their contacts are followed by one thread and summed by themselves.
-constexpr std::size_t slots_per_chunk = 1024;
+constexpr std::size_t slots_per_chunk = 512;
 
 /// Touching contacts in blocks of one pack each: lane k of block b is slot b * pack_width + k. A slot keeps its contact
 /// until that ends; then it is free for another. Forces are summed in the order of the slots, so that their last bits

@@ -249,7 +249,7 @@ TEST_CASE("many chunks of contacts have the same bits on 1, 2, 3 and 8 threads")
     const double exponent = (i / 2) % 2 == 0 ? 1. : 0.8;
     grains.add({Vec3::Constant(radius), exponent, exponent}, 2650.,
                1.99 * radius * Vec3(i % n_side, i / n_side % n_side, i / (n_side * n_side)), Quaternion::Identity());
-    grains.velocity.back() = 0.2 * Vec3(normal(generator), normal(generator), normal(generator));
+    grains.velocity.back() = 1. * Vec3(normal(generator), normal(generator), normal(generator));
   }
   SimulationParameters parameters = soft_parameters();
   const Box box{Vec3::Constant(-0.995 * radius), Vec3::Constant(1.99 * radius * (n_side - 0.5))};
