@@ -124,6 +124,14 @@ public:
         body(value);
   }
 
+  std::vector<T> all() const
+  {
+    std::vector<T> values;
+    for (const std::vector<T> &part : by_part)
+      values.insert(values.end(), part.begin(), part.end());
+    return values;
+  }
+
 private:
   std::vector<std::vector<T>> by_part;
 };

@@ -109,21 +109,25 @@ void PairContacts::renew(VerletList new_list, const Particles &particles)
         }
       });
   is_sphere.resize(particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    is_sphere[i] = particles.shape[i].is_sphere();
+  parallel_for(particles.size(), [&](const std::size_t i) { is_sphere[i] = particles.shape[i].is_sphere(); });
   list = std::move(new_list);
   slot = std::move(new_slot);
   rest_until = std::move(new_rest);
   separating_direction = std::move(new_direction);
-  std::vector<std::int32_t> grain_pairs, sphere_pairs;
-  for (std::size_t pair = 0; pair < list.size(); ++pair)
-    if (slot[pair] != apart)
-    {
-      const bool is_sphere = are_spheres(list.first[pair], list.second[pair]);
-      (is_sphere ? sphere_pairs : grain_pairs).push_back(static_cast<std::int32_t>(pair));
-    }
-  compact(grains, grain_pairs, slot);
-  compact(spheres, sphere_pairs, slot);
+  Collected<std::int32_t> grain_pairs, sphere_pairs;
+  parallel_ranges(
+      list.size(), 4096,
+      [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+      {
+        for (std::size_t pair = begin; pair < end; ++pair)
+          if (slot[pair] != apart)
+          {
+            const bool is_of_spheres = are_spheres(list.first[pair], list.second[pair]);
+            (is_of_spheres ? sphere_pairs : grain_pairs).of(part).push_back(static_cast<std::int32_t>(pair));
+          }
+      });
+  compact(grains, grain_pairs.all(), slot);
+  compact(spheres, sphere_pairs.all(), slot);
   grain_loads.slots_were_moved();
   sphere_loads.slots_were_moved();
 }

@@ -2,11 +2,9 @@
 
 #include "dem/contact/geometry.h"
 #include "dem/force/follow.h"
-#include "dem/neighbour/spatial_order.h"
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <utility>
 
 namespace bergamo::dem
@@ -87,48 +85,68 @@ void locate(const Particles &p, const std::int32_t i, const PlaneWall &wall, con
 
 void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall> &walls, const double range)
 {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> known;
-  for (std::size_t k = 0; k < size(); ++k)
-    known.emplace(std::pair(particle[k], wall[k]), k);
-
+  row.resize(particles.size() + 1, 0); // none has candidates at first
   WallContacts fresh;
   fresh.losses = losses;
   fresh.n_searches = n_searches;
   fresh.row.assign(particles.size() + 1, 0);
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
-    for (std::size_t w = 0; w < walls.size() && !particles.is_fixed(i); ++w)
+    const auto grain = static_cast<std::int32_t>(i);
+    std::int32_t old = row[i]; // candidates of a grain are sorted by their walls
+    const auto leave_until = [&](const std::int32_t plane)
     {
-      const double distance = walls[w].normal.dot(particles.position[i] - walls[w].point);
-      if (distance >= particles.bounding_radius[i] + range)
-        continue;
-      const auto grain = static_cast<std::int32_t>(i), plane = static_cast<std::int32_t>(w);
+      for (; old < row[i + 1] && wall[old] != plane; ++old)
+        if (is_touching(old))
+          fresh.losses += release(state(old));
+    };
+    const auto take = [&](const std::int32_t plane)
+    {
       const auto candidate = static_cast<std::int32_t>(fresh.size());
       fresh.particle.push_back(grain);
       fresh.wall.push_back(plane);
       fresh.slot.push_back(apart);
       fresh.rest_until.push_back(no_rest);
-      const auto old = known.find({grain, plane});
-      if (old == known.end())
-        continue;
-      fresh.rest_until.back() = rest_until[old->second];
-      if (is_touching(old->second))
-        fresh.slot.back() = fresh.touching.add(candidate, grain, plane, state(old->second));
-      known.erase(old);
-    }
+      if (std::find(wall.begin() + old, wall.begin() + row[i + 1], plane) == wall.begin() + row[i + 1])
+        return;
+      leave_until(plane);
+      fresh.rest_until.back() = rest_until[old];
+      if (is_touching(old))
+        fresh.slot.back() = fresh.touching.add(candidate, grain, plane, state(old));
+      ++old;
+    };
+    for (std::size_t w = 0; w < walls.size() && !particles.is_fixed(i); ++w)
+      if (walls[w].normal.dot(particles.position[i] - walls[w].point) < particles.bounding_radius[i] + range)
+        take(static_cast<std::int32_t>(w));
+    constexpr std::int32_t none = -2;
+    leave_until(none);
     fresh.row[i + 1] = static_cast<std::int32_t>(fresh.wall.size());
   }
-  for (const auto &[key, k] : known)
-    if (is_touching(k))
-      fresh.losses += release(state(k));
   *this = std::move(fresh);
 }
 
 void WallContacts::reorder(const std::vector<std::int32_t> &order)
 {
-  const std::vector<std::int32_t> new_index = inverse_order(order);
-  for (std::int32_t &i : particle)
-    i = new_index[i];
+  if (row.empty())
+    return;
+  std::vector<std::int32_t> new_row{0}, new_particle, new_wall, new_slot;
+  std::vector<double> new_rest;
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    for (auto k = row[order[i]]; k < row[order[i] + 1]; ++k)
+    {
+      new_particle.push_back(static_cast<std::int32_t>(i));
+      new_wall.push_back(wall[k]);
+      new_slot.push_back(slot[k]);
+      new_rest.push_back(rest_until[k]);
+    }
+    new_row.push_back(static_cast<std::int32_t>(new_wall.size()));
+  }
+  row = std::move(new_row);
+  particle = std::move(new_particle);
+  wall = std::move(new_wall);
+  slot = std::move(new_slot);
+  rest_until = std::move(new_rest);
 }
 
 void WallContacts::remove_wall(const std::int32_t index)

@@ -100,8 +100,6 @@ void visit_indices(Simulation &s, Visit &&visit)
   visit("dem/pairs/row", s.pairs.list.row);
   visit("dem/pairs/first", s.pairs.list.first);
   visit("dem/pairs/second", s.pairs.list.second);
-  visit("dem/pairs/incoming_row", s.pairs.list.incoming_row);
-  visit("dem/pairs/incoming", s.pairs.list.incoming);
   visit("dem/pairs/slot", s.pairs.slot);
   visit("dem/pairs/grains/pair", s.pairs.grains.pair);
   visit("dem/pairs/grains/first", s.pairs.grains.first);

@@ -1,5 +1,7 @@
 #include "dem/neighbour/cell_grid.h"
 
+#include "dem/core/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,14 +27,16 @@ CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size)
 
   cell_of.resize(positions.size());
   begin.assign(static_cast<std::size_t>(n[0]) * n[1] * n[2] + 1, 0);
-  for (std::size_t i = 0; i < positions.size(); ++i)
-  {
-    int k[3];
-    for (int d = 0; d < 3; ++d)
-      k[d] = std::clamp(static_cast<int>((positions[i][d] - low[d]) / cell_size), 0, n[d] - 1);
-    cell_of[i] = (k[2] * n[1] + k[1]) * n[0] + k[0];
-    ++begin[cell_of[i] + 1];
-  }
+  parallel_for(positions.size(),
+               [&](const std::size_t i)
+               {
+                 int k[3];
+                 for (int d = 0; d < 3; ++d)
+                   k[d] = std::clamp(static_cast<int>((positions[i][d] - low[d]) / cell_size), 0, n[d] - 1);
+                 cell_of[i] = (k[2] * n[1] + k[1]) * n[0] + k[0];
+               });
+  for (const std::int32_t cell : cell_of)
+    ++begin[cell + 1];
   for (std::size_t c = 1; c < begin.size(); ++c)
     begin[c] += begin[c - 1];
   particles.resize(positions.size());

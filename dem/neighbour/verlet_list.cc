@@ -73,15 +73,6 @@ VerletList build_verlet_list(const std::span<const Vec3> positions, const std::s
                  std::fill(list.first.begin() + list.row[i], list.first.begin() + list.row[i + 1],
                            static_cast<std::int32_t>(i));
                });
-
-  list.incoming_row.assign(n + 1, 0);
-  for (const std::int32_t j : list.second)
-    ++list.incoming_row[j];
-  exclusive_sum(list.incoming_row);
-  list.incoming.resize(list.size());
-  std::vector<std::int32_t> next(list.incoming_row.begin(), list.incoming_row.end() - 1);
-  for (std::size_t pair = 0; pair < list.size(); ++pair)
-    list.incoming[next[list.second[pair]]++] = static_cast<std::int32_t>(pair);
   return list;
 }
 

@@ -11,12 +11,10 @@ namespace bergamo::dem
 
 /// Pairs (i, j), i < j, whose bounding spheres are nearer than the Verlet distance, sorted by i and then j.
 /// Pairs of particle i: pair indices row[i] .. row[i + 1]; the other partner is second[pair].
-/// Pairs in which i stands second: incoming[incoming_row[i]] .. incoming[incoming_row[i + 1]].
 struct VerletList
 {
   std::vector<std::int32_t> row;
   std::vector<std::int32_t> first, second;
-  std::vector<std::int32_t> incoming_row, incoming;
 
   std::size_t size() const { return second.size(); }
 };
