@@ -86,8 +86,8 @@ void visit_arrays(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/particles/weight", s.particles.weight);
   visit("dem/particles/motion", s.particles.motion);
   visit("dem/walls", s.walls);
-  visit("dem/pairs/rest_until", s.pairs.rest_until);
-  visit("dem/wall_contacts/rest_until", s.wall_contacts.rest_until);
+  visit("dem/pairs/rest_mark", s.pairs.rest_until);
+  visit("dem/wall_contacts/rest_mark", s.wall_contacts.rest_until);
   visit("dem/hidden/position_when_built", h.position_when_built);
   visit("dem/hidden/wall_motion_when_built", h.wall_motion_when_built);
   visit("dem/hidden/external_work", h.external_work);
