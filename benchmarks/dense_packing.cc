@@ -4,12 +4,10 @@
 #include "benchmarks/dense_packing_options.h"
 #include "benchmarks/dense_packing_report.h"
 #include "benchmarks/packing_cache.h"
-#include "dem/core/error.h"
-#include "dem/io/whole_file.h"
+#include "benchmarks/program.h"
 
 #include <omp.h>
 
-#include <iostream>
 #include <memory>
 
 namespace
@@ -18,19 +16,14 @@ namespace
 using namespace bergamo;
 using namespace bergamo::benchmark;
 
-void log(const std::string &line)
-{
-  std::cerr << line << std::endl;
-}
-
 std::optional<std::filesystem::path> find_liggghts(const DensePackingOptions &options)
 {
   if (!options.with_liggghts)
     return std::nullopt;
   const auto program = Liggghts::find(options.liggghts);
   if (!program)
-    log("LIGGGHTS '" + options.liggghts +
-        "' was not found: going on without it. On Debian: apt install liggghts, or give its path by --liggghts.");
+    log_line("LIGGGHTS '" + options.liggghts +
+             "' was not found: going on without it. On Debian: apt install liggghts, or give its path by --liggghts.");
   return program;
 }
 
@@ -43,7 +36,7 @@ SizeResult measure(const DensePackingOptions &options, const int n_grains,
   std::unique_ptr<Liggghts> liggghts;
   for (const GrainKind kind : options.kinds)
   {
-    packings.push_back(cached_packing(options.cache, {.kind = kind, .n_grains = n_grains}, log));
+    packings.push_back(cached_packing(options.cache, {.kind = kind, .n_grains = n_grains}, log_line));
     const dem::Simulation &packing = *packings.back();
     result.engine.push_back({kind,
                              packing_figures(packing),
@@ -67,12 +60,9 @@ SizeResult measure(const DensePackingOptions &options, const int n_grains,
   return result;
 }
 
-void run(const DensePackingOptions &options)
+nlohmann::json measure(const DensePackingOptions &options)
 {
   omp_set_num_threads(options.n_threads);
-  std::unique_ptr<dem::WholeFile> json; // opened first, so that a wrong path is known before the work
-  if (!options.json.empty())
-    json = std::make_unique<dem::WholeFile>(options.json);
   const auto liggghts_program = find_liggghts(options);
   std::vector<SizeResult> results;
   for (const int n_grains : options.n_grains)
@@ -80,31 +70,17 @@ void run(const DensePackingOptions &options)
     results.push_back(measure(options, n_grains, liggghts_program));
     print(results.back());
   }
-  if (json)
-  {
-    json->write(to_json(results).dump(2) + '\n');
-    json->commit();
-  }
+  return to_json(results);
 }
 
 } // namespace
 
 int main(const int argc, char **const argv)
 {
-  try
-  {
-    if (const auto options = parse_dense_packing_options(argc, argv))
-      run(*options);
-    return 0;
-  }
-  catch (const dem::ConfigError &error)
-  {
-    log(std::string("dense_packing: ") + error.what());
-    return 2;
-  }
-  catch (const std::exception &error)
-  {
-    log(std::string("dense_packing: ") + error.what());
-    return 1;
-  }
+  return run_program("dense_packing",
+                     [&]
+                     {
+                       if (const auto options = parse_dense_packing_options(argc, argv))
+                         write_figures(options->json, [&] { return measure(*options); });
+                     });
 }

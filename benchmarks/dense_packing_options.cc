@@ -1,12 +1,11 @@
 #include "benchmarks/dense_packing_options.h"
 
+#include "benchmarks/program.h"
 #include "dem/core/error.h"
 
-#include <CLI/CLI.hpp>
 #include <omp.h>
 
 #include <algorithm>
-#include <iostream>
 
 namespace bergamo::benchmark
 {
@@ -44,7 +43,6 @@ void require_distinct(const std::string &option, const std::vector<T> &values)
 
 void check(const DensePackingOptions &options)
 {
-  namespace fs = std::filesystem;
   for (const int n : options.n_grains)
     require_range("--grains", n, 1000, 1000000, "fewer mostly touch a wall, more take hours to settle");
   require_distinct("--grains", options.n_grains);
@@ -54,11 +52,7 @@ void check(const DensePackingOptions &options)
   const int n_cores = omp_get_num_procs();
   require_range("--threads", options.n_threads, 1, n_cores,
                 "this machine's cores; more threads would only disturb each other");
-  std::error_code error;
-  fs::create_directories(options.cache, error);
-  if (!fs::is_directory(options.cache))
-    throw dem::ConfigError("--cache '" + options.cache.string() + "' cannot be made" +
-                           (error ? ": " + error.message() : "") + "; name a folder that you may write to");
+  make_cache(options.cache);
 }
 
 constexpr const char *footer = R"(
@@ -106,19 +100,8 @@ std::optional<DensePackingOptions> parse_dense_packing_options(const int argc, c
   app.add_option("--json", options.json, "Write the figures to this file, too")->type_name("FILE");
   app.add_option("--liggghts", options.liggghts, "Name or path of LIGGGHTS (default: liggghts)")->type_name("PROGRAM");
   app.add_flag("--no-liggghts", without_liggghts, "Leave LIGGGHTS out");
-  try
-  {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::CallForHelp &)
-  {
-    std::cout << app.help();
+  if (!parse_arguments(app, argc, argv))
     return std::nullopt;
-  }
-  catch (const CLI::ParseError &error)
-  {
-    throw dem::ConfigError(std::string(error.what()) + "; see 'dense_packing --help'");
-  }
   options.kinds = kinds_of(shapes);
   options.with_liggghts = !without_liggghts;
   check(options);

@@ -3,6 +3,7 @@
 // every step. `overlap_tolerance [grains] [steps]`.
 
 #include "benchmarks/packing_cache.h"
+#include "benchmarks/program.h"
 #include "benchmarks/step_timing.h"
 
 #include <omp.h>
@@ -67,33 +68,37 @@ double relative_error(const Outcome &outcome, const Outcome &reference)
   return error / sum;
 }
 
+void measure(const int n_grains, const int n_steps)
+{
+  omp_set_num_threads(1);
+  const std::filesystem::path cache = BERGAMO_PACKING_CACHE;
+  make_cache(cache);
+  const auto packing = cached_packing(cache, {.n_grains = n_grains}, log_line);
+  const Outcome every_step = compress(*packing, 0., n_steps);
+  std::cout << n_grains << " superquadrics, " << n_steps << " steps of " << packing->parameters().time_step
+            << " s at a strain rate of " << strain_rate << " 1/s\n"
+            << "tolerance   searches a contact and step   error of the contact forces   time over that of 0\n";
+  for (const double tolerance : {0., 1e-6, 1e-5, 1e-4, 1e-3, 1e-2})
+  {
+    const Outcome o = tolerance == 0. ? every_step : compress(*packing, tolerance, n_steps);
+    std::cout << std::setw(9) << tolerance << std::setw(30) << o.searches << std::setw(30)
+              << relative_error(o, every_step) << std::setw(22) << o.seconds / every_step.seconds << '\n';
+  }
+}
+
 } // namespace
 
 int main(const int argc, char **const argv)
 {
-  try
-  {
-    omp_set_num_threads(1);
-    const int n_grains = argc > 1 ? std::stoi(argv[1]) : 1000, n_steps = argc > 2 ? std::stoi(argv[2]) : 2000;
-    const std::filesystem::path cache = BERGAMO_PACKING_CACHE;
-    std::filesystem::create_directories(cache);
-    const auto packing =
-        cached_packing(cache, {.n_grains = n_grains}, [](const std::string &line) { std::cerr << line << '\n'; });
-    const Outcome every_step = compress(*packing, 0., n_steps);
-    std::cout << n_grains << " superquadrics, " << n_steps << " steps of " << packing->parameters().time_step
-              << " s at a strain rate of " << strain_rate << " 1/s\n"
-              << "tolerance   searches a contact and step   error of the contact forces   time over that of 0\n";
-    for (const double tolerance : {0., 1e-6, 1e-5, 1e-4, 1e-3, 1e-2})
-    {
-      const Outcome o = tolerance == 0. ? every_step : compress(*packing, tolerance, n_steps);
-      std::cout << std::setw(9) << tolerance << std::setw(30) << o.searches << std::setw(30)
-                << relative_error(o, every_step) << std::setw(22) << o.seconds / every_step.seconds << '\n';
-    }
-    return 0;
-  }
-  catch (const std::exception &error)
-  {
-    std::cerr << "overlap_tolerance: " << error.what() << '\n';
-    return 1;
-  }
+  return run_program("overlap_tolerance",
+                     [&]
+                     {
+                       int n_grains = 1000, n_steps = 2000;
+                       CLI::App app("Error of the contact forces and time over the tolerance of the overlap.",
+                                    "overlap_tolerance");
+                       app.add_option("grains", n_grains, "Grains (default: 1000)")->check(CLI::PositiveNumber);
+                       app.add_option("steps", n_steps, "Steps (default: 2000)")->check(CLI::PositiveNumber);
+                       if (parse_arguments(app, argc, argv))
+                         measure(n_grains, n_steps);
+                     });
 }

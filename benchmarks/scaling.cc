@@ -3,19 +3,14 @@
 
 #include "benchmarks/hourglass.h"
 #include "benchmarks/packing_cache.h"
+#include "benchmarks/program.h"
 #include "benchmarks/step_timing.h"
 #include "benchmarks/tiling.h"
-#include "dem/core/error.h"
-#include "dem/io/whole_file.h"
-
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <omp.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -37,11 +32,6 @@ struct Options
   int n_threads = omp_get_num_procs();
   std::filesystem::path cache = BERGAMO_PACKING_CACHE, json;
 };
-
-void log(const std::string &line)
-{
-  std::cerr << line << std::endl;
-}
 
 /// Wellmann, fig. 3.17: the hourglass of 1e5 superquadrics while it flows.
 const std::map<int, double> dissertation{{2, 0.94}, {4, 0.84}, {8, 0.65}};
@@ -86,7 +76,7 @@ nlohmann::json dense(Options options)
   if (options.n_grains == 0)
     options.n_grains = 50000;
   omp_set_num_threads(options.n_threads);
-  const auto packing = cached_packing(options.cache, {.n_grains = options.n_grains}, log);
+  const auto packing = cached_packing(options.cache, {.n_grains = options.n_grains}, log_line);
   const PackingFigures f = packing_figures(*packing);
   std::cout << "dense packing: " << packing->particles.size() << " superquadrics, " << f.coordination_number
             << " contacts a grain\n";
@@ -99,7 +89,7 @@ nlohmann::json flowing(Options options)
   if (options.n_grains != 0)
     recipe.n_grains = options.n_grains;
   omp_set_num_threads(options.n_threads);
-  const auto hourglass = flowing_hourglass(recipe, log);
+  const auto hourglass = flowing_hourglass(recipe, log_line);
   const FlowFigures f = flow_figures(*hourglass);
   std::cout << "flowing hourglass: " << f.n_grains << " superquadrics and " << f.n_wall_spheres << " fixed spheres, "
             << f.coordination_number << " contacts a grain, mean speed " << f.mean_speed << " m/s\n";
@@ -119,7 +109,7 @@ nlohmann::json size(Options options)
 {
   const int n_most = options.n_grains ? options.n_grains : 1000000;
   omp_set_num_threads(1);
-  const auto cell = cached_packing(options.cache, {.n_grains = 1000}, log);
+  const auto cell = cached_packing(options.cache, {.n_grains = 1000}, log_line);
   nlohmann::json rows = nlohmann::json::array();
   std::cout << "   grains   contacts a grain   ns a grain and step, least median most   bytes a grain\n" << std::fixed;
   for (int n = 1; n * n * n * static_cast<int>(cell->particles.size()) <= n_most; n = n < 2 ? 2 : (n < 5 ? 5 : 2 * n))
@@ -162,57 +152,28 @@ std::optional<Options> parse(const int argc, char **const argv)
   app.add_option("--cache", o.cache, "Folder of settled packings (default: " + o.cache.string() + ")");
   app.add_option("--json", o.json, "Write the figures to this file, too");
   app.footer("Keep the machine free of other work: threads wait for one another at every phase of a step.");
-  try
-  {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::CallForHelp &)
-  {
-    std::cout << app.help();
+  if (!parse_arguments(app, argc, argv))
     return std::nullopt;
-  }
-  catch (const CLI::ParseError &error)
-  {
-    throw dem::ConfigError(std::string(error.what()) + "; see 'scaling --help'");
-  }
-  std::error_code error;
-  std::filesystem::create_directories(o.cache, error);
-  if (error)
-    throw dem::ConfigError("--cache '" + o.cache.string() + "' cannot be made: " + error.message() +
-                           "; name a folder that you may write to");
+  make_cache(o.cache);
   return o;
+}
+
+nlohmann::json measure(const Options &options)
+{
+  const nlohmann::json rows = options.study == "dense"     ? dense(options)
+                              : options.study == "flowing" ? flowing(options)
+                                                           : size(options);
+  return {{"study", options.study}, {"rows", rows}};
 }
 
 } // namespace
 
 int main(const int argc, char **const argv)
 {
-  try
-  {
-    const auto options = parse(argc, argv);
-    if (!options)
-      return 0;
-    std::unique_ptr<dem::WholeFile> json; // opened first, so that a wrong path is known before the work
-    if (!options->json.empty())
-      json = std::make_unique<dem::WholeFile>(options->json);
-    const nlohmann::json rows = options->study == "dense"     ? dense(*options)
-                                : options->study == "flowing" ? flowing(*options)
-                                                              : size(*options);
-    if (json)
-    {
-      json->write(nlohmann::json{{"study", options->study}, {"rows", rows}}.dump(2) + '\n');
-      json->commit();
-    }
-    return 0;
-  }
-  catch (const dem::ConfigError &error)
-  {
-    log(std::string("scaling: ") + error.what());
-    return 2;
-  }
-  catch (const std::exception &error)
-  {
-    log(std::string("scaling: ") + error.what());
-    return 1;
-  }
+  return run_program("scaling",
+                     [&]
+                     {
+                       if (const auto options = parse(argc, argv))
+                         write_figures(options->json, [&] { return measure(*options); });
+                     });
 }
