@@ -24,8 +24,8 @@ struct ContactSearch
 
   bool is_touching = false;
   bool is_undecided = false;
-  double gap = 0.;     ///< lower bound where apart [m]
-  Resultant resultant; ///< where touching
+  double gap = 0.;          ///< lower bound where apart [m]
+  Resultant resultant = {}; ///< where touching
 };
 
 /// A contact that a search found and that did not touch last step: it has no slot yet.
