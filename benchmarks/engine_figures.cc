@@ -10,12 +10,11 @@ std::size_t n_touching(const dem::Simulation &simulation)
 
 double mean_relative_overlap(const dem::Simulation &simulation)
 {
-  const auto &position = simulation.particles.position;
   double overlaps = 0., distances = 0.;
-  for (const auto &[first, second, state] : simulation.pairs.touching(simulation.particles))
+  for (const dem::TouchingContact &contact : simulation.pairs.touching(simulation.particles))
   {
-    overlaps += state.overlap;
-    distances += (position[first] - position[second]).norm();
+    overlaps += contact.state.overlap;
+    distances += contact.branch.norm();
   }
   return distances > 0. ? overlaps / distances : 0.;
 }

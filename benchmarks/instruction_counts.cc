@@ -120,7 +120,7 @@ public:
   {
     begun.reserve(n_pairs);
     for (int pair = 0; pair < n_pairs; ++pair)
-      searches.push_back({pair, 2 * pair, 2 * pair + 1, PairContacts::apart});
+      searches.push_back({pair, 2 * pair, 2 * pair + 1, own_image, PairContacts::apart});
   }
 
   void search_all()
@@ -141,7 +141,7 @@ public:
     {
       ContactSearch &s = searches[c.search];
       s.slot = s.pair;
-      store.put(s.slot, s.pair, s.first, s.second, c.state);
+      store.put(s.slot, {s.pair, s.first, s.second}, c.state);
     }
     begun.clear();
   }
@@ -194,7 +194,7 @@ int follow_sphere_contact(const int passes, Random &random)
     state.tangential_stiffness = stiffness.tangential_major;
     state.reduced_mass = 1. / (1. / p.mass[i] + 1. / p.mass[j]);
     state.weight = 1.;
-    store.put(pair, pair, i, j, state);
+    store.put(pair, {pair, i, j}, state);
   }
   follow_pairs(store, p, passes);
   return n_pairs;
@@ -274,7 +274,7 @@ int move(const Grain grain, const int passes, Random &random)
 {
   Particles p = lone_grains(grain, random);
   for (int pass = 0; pass < passes; ++pass)
-    if (!advance(p, gravity, time_step))
+    if (!advance(p, {gravity}, time_step))
       std::abort();
   return n_grains;
 }

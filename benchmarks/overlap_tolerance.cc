@@ -46,8 +46,8 @@ Outcome compress(const dem::Simulation &packing, const double tolerance, const i
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.searches =
       static_cast<double>(simulation.pairs.n_searches - n_searches) / n_steps / simulation.pairs.n_touching();
-  for (const auto &[first, second, s] : simulation.pairs.touching(simulation.particles))
-    outcome.force[{first, second}] = s.forces.on_body1(s.normal);
+  for (const dem::TouchingContact &c : simulation.pairs.touching(simulation.particles))
+    outcome.force[{c.first, c.second}] = c.state.forces.on_body1(c.state.normal);
   return outcome;
 }
 

@@ -73,6 +73,8 @@ Simulation::Simulation(const SimulationParameters &parameters, Particles new_par
   const double mean_radius = std::accumulate(radii.begin(), radii.end(), 0.) / particles.size();
   h.verlet_distance = p.verlet_distance * mean_radius;
   index_of_id.resize(particles.size());
+  if (particles.cell.is_periodic())
+    check_cell();
   sort_by_place();
   h.start_potential = gravity_potential();
 }
@@ -93,10 +95,53 @@ void Simulation::change(const SimulationParameters &parameters)
   refresh_contacts(); // the last drift was made with the old step
 }
 
+double Simulation::contact_range() const
+{
+  return 2. * *std::max_element(particles.bounding_radius.begin(), particles.bounding_radius.end()) + h.verlet_distance;
+}
+
+void Simulation::check_cell() const
+{
+  const auto refuse = [](const std::string &what) { throw ConfigError("a periodic cell " + what); };
+  if (!walls.empty())
+    refuse("has no walls, but " + std::to_string(walls.size()) + " were given: leave them out");
+  if (p.gravity != Vec3::Zero())
+    refuse("would fall for ever: set gravity to zero");
+  if (particles.cell.edges.minCoeff() < 2. * contact_range())
+    refuse("of edge " + std::to_string(particles.cell.edges.minCoeff()) +
+           " m is too small: a grain would touch another "
+           "one twice; it needs at least two ranges of contacts, " +
+           std::to_string(2. * contact_range()) + " m: make it larger or the grains smaller");
+}
+
+void Simulation::return_to_cell()
+{
+  const PeriodicCell &cell = particles.cell;
+  if (cell.edges.minCoeff() < 2. * contact_range())
+    throw RunError("the periodic cell has shrunk to an edge of " + std::to_string(cell.edges.minCoeff()) +
+                   " m at time " + std::to_string(time) + " s, less than two ranges of contacts, " +
+                   std::to_string(2. * contact_range()) + " m: begin with a larger cell or load it less");
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    const Vec3 edges_over = (particles.position[i].array() / cell.edges.array()).floor();
+    if (edges_over == Vec3::Zero())
+      continue;
+    Vec3 &velocity = particles.velocity[i];
+    const double old_square = velocity.squaredNorm();
+    particles.position[i] -= edges_over.cwiseProduct(cell.edges);
+    velocity -= edges_over.cwiseProduct(cell.rate);
+    h.cell_work.sum += 0.5 * particles.weight[i] * particles.mass[i] * (velocity.squaredNorm() - old_square);
+  }
+}
+
 void Simulation::rebuild_neighbours()
 {
   check_finite(); // places that are no numbers have no cell
-  pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, h.verlet_distance, particles.mass),
+  if (particles.cell.is_periodic())
+    return_to_cell();
+  h.edges_when_built = particles.cell.edges;
+  pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, h.verlet_distance, particles.mass,
+                                particles.cell),
               particles);
   wall_contacts.renew(particles, walls, h.verlet_distance);
   h.position_when_built = particles.position;
@@ -109,7 +154,9 @@ void Simulation::rebuild_neighbours()
 
 bool Simulation::grains_left_their_neighbours()
 {
-  const double limit = 0.5 * h.verlet_distance;
+  double limit = 0.5 * h.verlet_distance;
+  if (particles.cell.is_periodic())
+    limit -= 0.5 * (particles.cell.edges - h.edges_when_built).norm();
   if (particles.largest_motion < h.look_at_motion)
     return false;
   Collected<double> squares;
@@ -195,7 +242,39 @@ void Simulation::compute_forces()
   wall_contacts.compute(particles, walls, wall_law, p.contact, p.time_step);
   watch.lap(times.walls);
   sum_contact_forces();
+  if (particles.cell.is_periodic())
+    book_cell_work();
   watch.lap(times.summation);
+}
+
+/// Work of the contacts across the faces of the cell in the last step, by the trapezoidal rule.
+void Simulation::book_cell_work()
+{
+  const Vec3 force = pairs.virial().image.cwiseQuotient(particles.cell.edges);
+  h.cell_work.sum +=
+      h.cell_work.half_kick + 0.5 * p.time_step * (h.cell_work.image_force + force).dot(particles.cell.rate);
+  h.cell_work.half_kick = 0.;
+  h.cell_work.image_force = force;
+}
+
+AccelerationField Simulation::field() const
+{
+  const PeriodicCell &cell = particles.cell;
+  return {p.gravity, cell.is_periodic() ? Vec3(cell.acceleration.cwiseQuotient(cell.edges)) : Vec3(Vec3::Zero())};
+}
+
+/// Power of an acceleration gradient * x on the grains at their present velocities [W].
+/// @param since x are the places so long ago [s]
+double Simulation::power_of(const Vec3 &gradient, const double since) const
+{
+  if (gradient == Vec3::Zero())
+    return 0.;
+  return ordered_sum(particles.size(), 0.,
+                     [&](const std::size_t i)
+                     {
+                       const Vec3 &v = particles.velocity[i], place = particles.position[i] - since * v;
+                       return particles.weight[i] * particles.mass[i] * gradient.cwiseProduct(place).dot(v);
+                     });
 }
 
 void Simulation::sum_contact_forces()
@@ -217,8 +296,16 @@ void Simulation::integrate()
   const double dt = p.time_step;
   if (!particles.external_force.empty() || !h.last_external_force.empty())
     book_external_work();
-  if (!advance(particles, p.gravity, dt))
+  const AccelerationField acting = field();
+  h.cell_work.sum += 0.5 * dt * power_of(acting.gradient);
+  if (!advance(particles, acting, dt))
     report_divergence();
+  if (particles.cell.is_periodic())
+  {
+    h.cell_work.half_kick = 0.5 * dt * power_of(acting.gradient, dt);
+    particles.cell.advance(dt);
+    particles.largest_motion += 0.5 * dt * particles.cell.rate.norm();
+  }
   const ContactLosses &lost = pairs.losses, &wall_lost = wall_contacts.losses;
   if (!std::isfinite(lost.friction + lost.viscous + lost.curvature + wall_lost.friction + wall_lost.viscous +
                      wall_lost.curvature))
@@ -265,6 +352,7 @@ void Simulation::reset_accounts()
   for (PlaneWall &wall : walls)
     wall.work = 0.;
   h.removed_wall_work = 0.;
+  h.cell_work.sum = h.cell_work.half_kick = 0.;
   std::fill(h.external_work.begin(), h.external_work.end(), 0.);
   h.start_potential = gravity_potential();
 }
@@ -282,6 +370,7 @@ GrainEnergy Simulation::energy() const
 {
   GrainEnergy e;
   const double dt = p.time_step;
+  const AccelerationField acting = field();
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
     if (particles.is_fixed(i))
@@ -291,7 +380,7 @@ GrainEnergy Simulation::energy() const
     Vec3 force = particles.force[i];
     if (!particles.external_force.empty())
       force += particles.external_force[i];
-    const Vec3 next = v + dt * (force / mass + p.gravity);
+    const Vec3 next = v + dt * (force / mass + acting.at(particles.position[i]));
     const Vec3 &momentum = particles.angular_momentum[i];
     const Vec3 next_momentum = momentum + dt / particles.weight[i] * particles.torque[i];
     const Mat3 rotation = particles.orientation[i].toRotationMatrix();
@@ -319,6 +408,7 @@ GrainEnergy Simulation::energy() const
   for (const PlaneWall &wall : walls)
     e.wall_work += wall.work;
   e.gravity_work = h.start_potential - gravity_potential();
+  e.cell_work = h.cell_work.sum + 0.5 * dt * power_of(acting.gradient);
   return e;
 }
 

@@ -3,6 +3,7 @@
 #include "dem/force/pair_contacts.h"
 #include "dem/force/wall_contacts.h"
 #include "dem/measure/energy.h"
+#include "dem/motion/leapfrog.h"
 #include "dem/state/material.h"
 #include "dem/state/particles.h"
 #include "dem/state/wall.h"
@@ -40,10 +41,11 @@ struct SimulationParameters
 class Simulation
 {
 public:
-  /// @param particles at least one; @param walls their velocities may be changed between steps
+  /// @param particles at least one; a periodic cell of theirs must be at least two ranges of contacts wide, and has
+  /// neither walls nor gravity; @param walls their velocities may be changed between steps
   Simulation(const SimulationParameters &parameters, Particles particles, std::vector<PlaneWall> walls);
 
-  void compute_forces(); ///< contacts and their resultants at the present step
+  void compute_forces(); ///< contacts and their resultants at the present step; particles.cell.acceleration may follow
   void integrate();      ///< kick, turn and drift to the next step; throws RunError as check_finite() does
 
   void step()
@@ -72,6 +74,9 @@ public:
   /// Energies at the present step; to be called between compute_forces() and integrate().
   GrainEnergy energy() const;
 
+  /// Principal mean stresses of the periodic cell, tension positive (Wellmann 5.3) [Pa]. After compute_forces().
+  Vec3 cell_stress() const { return pairs.virial().branch / particles.cell.volume(); }
+
   /// See dem/motion/stable_step.h [s].
   double stable_time_step() const;
 
@@ -90,6 +95,14 @@ public:
   std::int64_t n_rebuilds = 0;
   PhaseTimes times;
 
+  /// Work done by the deformation of a periodic cell since the accounts were opened.
+  struct CellWork
+  {
+    double sum = 0.;       ///< [J]
+    double half_kick = 0.; ///< of the last step's change of the rate, of which half belongs to the next step [J]
+    Vec3 image_force = Vec3::Zero(); ///< of the last step, over the faces of the cell [N]
+  };
+
   /// What a restart needs beyond the public state; dem/io/snapshot stores it.
   struct Hidden
   {
@@ -98,8 +111,10 @@ public:
     std::int64_t n_rebuilds_when_sorted = 0;
     std::vector<Vec3> position_when_built;
     std::vector<double> wall_motion_when_built;
-    double start_potential = 0.;           ///< of gravity when the accounts were opened [J]
-    double removed_wall_work = 0.;         ///< done since then by walls that were removed [J]
+    double start_potential = 0.;          ///< of gravity when the accounts were opened [J]
+    double removed_wall_work = 0.;        ///< done since then by walls that were removed [J]
+    Vec3 edges_when_built = Vec3::Zero(); ///< of the periodic cell [m]
+    CellWork cell_work;
     std::vector<double> external_work;     ///< done on each grain since then, or empty [J]
     std::vector<Vec3> last_external_force; ///< [N], or empty
   };
@@ -111,8 +126,14 @@ public:
 
 private:
   bool grains_left_their_neighbours();
+  double contact_range() const;
   void rebuild_neighbours();
   void book_external_work();
+  void check_cell() const;
+  void return_to_cell();
+  void book_cell_work();
+  AccelerationField field() const;
+  double power_of(const Vec3 &gradient, double since = 0.) const;
   void sum_contact_forces();
   [[noreturn]] void report_divergence() const;
   [[noreturn]] void throw_diverged(std::size_t i, const char *trouble) const;

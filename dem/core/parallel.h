@@ -107,6 +107,25 @@ void parallel_for(const std::size_t n, Body &&body)
                   });
 }
 
+/// Sum of term(i) over [0, n), added up in the same order on any number of threads. @param zero to begin with
+template <class T, class Term>
+T ordered_sum(const std::size_t n, const T &zero, Term &&term)
+{
+  constexpr std::size_t chunk = 256;
+  std::vector<T> sums((n + chunk - 1) / chunk, zero);
+  parallel_ranges(sums.size(), 4,
+                  [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t k = begin; k < end; ++k)
+                      for (std::size_t i = k * chunk; i < std::min((k + 1) * chunk, n); ++i)
+                        sums[k] += term(i);
+                  });
+  T sum = zero;
+  for (const T &s : sums)
+    sum += s;
+  return sum;
+}
+
 /// What the parts of parallel_ranges find, in the order of [0, n) whatever the number of threads.
 template <class T>
 class Collected

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/core/pack.h"
+#include "dem/state/periodic_cell.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -27,6 +28,14 @@ State<double> lane_of(const State<Pack> &pack, const int lane)
 /// Slots that belong together: their contacts are followed by one thread and summed by themselves.
 constexpr std::size_t slots_per_chunk = 512;
 
+/// Whose contact a slot holds.
+struct SlotOwner
+{
+  std::int32_t pair;          ///< of the Verlet list
+  std::int32_t first, second; ///< grains
+  Image image = own_image;    ///< of the second grain
+};
+
 /// Touching contacts in blocks of one pack each: lane k of block b is slot b * pack_width + k. A slot keeps its contact
 /// until that ends; then it is free for another. Forces are summed in the order of the slots, so that their last bits
 /// depend on it: who gets which slot follows from the contacts alone, not from threads or from a restart.
@@ -45,9 +54,8 @@ public:
   }
 
   /// Puts a contact into the first free slot of the chunk of another one, else of the last chunk, else into a new one.
-  /// @param pair_index of the Verlet list; @param i, j its grains; @param near slot of a contact close by, or none
-  std::int32_t add(const std::int32_t pair_index, const std::int32_t i, const std::int32_t j,
-                   const State<double> &state, const std::int32_t near = free_slot)
+  /// @param near slot of a contact close by, or none
+  std::int32_t add(const SlotOwner &owner, const State<double> &state, const std::int32_t near = free_slot)
   {
     std::size_t chunk = near < 0 ? n_chunks() - 1 : near / slots_per_chunk;
     if (n_slots() == 0 || n_free[chunk] == 0)
@@ -60,16 +68,16 @@ public:
     const auto slot =
         static_cast<std::int32_t>(std::find(pair.begin() + first_free[chunk], pair.end(), free_slot) - pair.begin());
     first_free[chunk] = slot + 1;
-    put(slot, pair_index, i, j, state);
+    put(slot, owner, state);
     return slot;
   }
 
-  void put(const std::int32_t slot, const std::int32_t pair_index, const std::int32_t i, const std::int32_t j,
-           const State<double> &state)
+  void put(const std::int32_t slot, const SlotOwner &owner, const State<double> &state)
   {
-    pair[slot] = pair_index;
-    first[slot] = i;
-    second[slot] = j;
+    pair[slot] = owner.pair;
+    first[slot] = owner.first;
+    second[slot] = owner.second;
+    image[slot] = owner.image;
     set(slot, state);
   }
 
@@ -77,6 +85,7 @@ public:
   {
     pair[slot] = free_slot;
     first[slot] = second[slot] = 0;
+    image[slot] = own_image;
     set(slot, State<double>::idle());
     const std::size_t chunk = slot / slots_per_chunk;
     ++n_free[chunk];
@@ -92,6 +101,7 @@ public:
     pair.assign(n_all, free_slot);
     first.assign(n_all, 0);
     second.assign(n_all, 0);
+    image.assign(n_all, own_image);
     make_chunks();
     if (n_all > n)
       n_free.back() = static_cast<std::int32_t>(n_all - n);
@@ -134,14 +144,15 @@ public:
     return all;
   }
 
-  /// Fills the blocks from a snapshot, after pair, first and second have been set; it may come from packs of another
-  /// width.
+  /// Fills the blocks from a snapshot, after pair, first, second and image have been set; it may come from packs of
+  /// another width.
   void restore(const std::vector<State<double>> &states)
   {
     const std::size_t n_all = (states.size() + pack_width - 1) / pack_width * pack_width;
     pair.resize(n_all, free_slot);
     first.resize(n_all, 0);
     second.resize(n_all, 0);
+    image.resize(n_all, own_image);
     blocks.assign(n_all / pack_width, State<Pack>::idle());
     make_chunks();
     for (std::size_t slot = 0; slot < n_all; ++slot)
@@ -155,6 +166,7 @@ public:
   std::vector<State<Pack>> blocks;
   std::vector<std::int32_t> pair;          ///< of the Verlet list, by slot; free_slot where unused
   std::vector<std::int32_t> first, second; ///< grains by slot
+  std::vector<Image> image;                ///< of the second grain, by slot
 
 private:
   std::vector<std::int32_t> n_free;     // unused slots by chunk
@@ -186,6 +198,7 @@ private:
     pair.resize(n + pack_width, free_slot);
     first.resize(n + pack_width, 0);
     second.resize(n + pack_width, 0);
+    image.resize(n + pack_width, own_image);
     if (n % slots_per_chunk == 0)
     {
       n_free.push_back(0);

@@ -12,8 +12,17 @@ PairMotion<Pack> motion_of(const ContactStore<State> &store, const std::size_t b
                            const double time_step)
 {
   const std::int32_t *first = &store.first[block * pack_width], *second = &store.second[block * pack_width];
+  const Image *image = &store.image[block * pack_width];
   return {particles, [=](const int lane) { return first[lane]; }, [=](const int lane) { return second[lane]; },
-          time_step};
+          [=](const int lane) { return image[lane]; }, time_step};
+}
+
+/// Shifts of the second grains' images [m].
+template <template <class> class State>
+Vector3<Pack> shift_of_block(const ContactStore<State> &store, const std::size_t block, const Particles &p)
+{
+  return math::gather_vectors<Pack>([&](const int lane) -> const Vec3 &
+                                    { return p.cell.place[store.image[block * pack_width + lane]]; });
 }
 
 constexpr std::size_t blocks_ahead = 2;
@@ -46,6 +55,8 @@ math::Mask<Pack> follow_block(ContactStore<ContactState> &store, LoadSums &loads
   const Followed<Pack> followed = follow(state, motion, law, losses);
   const Vector3<Pack> &force = followed.force;
   loads.add(block, force, (motion.half_line + state.point).cross(force), (motion.half_line - state.point).cross(force));
+  if (particles.cell.is_periodic())
+    loads.virial_of_block(block).add(motion.half_line, shift_of_block(store, block, particles), force);
   return followed.is_due;
 }
 
@@ -54,9 +65,11 @@ math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, LoadSums 
                               Losses<Pack> &losses)
 {
   prefetch(store, block + blocks_ahead, particles);
-  const FollowedSpheres<Pack> followed =
-      follow(store.blocks[block], motion_of(store, block, particles, time_step), law, losses);
+  const PairMotion<Pack> motion = motion_of(store, block, particles, time_step);
+  const FollowedSpheres<Pack> followed = follow(store.blocks[block], motion, law, losses);
   loads.add(block, followed.force, followed.torque1, followed.torque2);
+  if (particles.cell.is_periodic())
+    loads.virial_of_block(block).add(motion.half_line, shift_of_block(store, block, particles), followed.force);
   return followed.is_apart;
 }
 

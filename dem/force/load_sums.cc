@@ -30,6 +30,8 @@ void LoadSums::list_bodies(const std::vector<std::int32_t> &first, const std::ve
   std::vector<std::vector<std::int32_t>> bodies_of(n);
   std::vector<std::vector<BodyLoad>> loads_of(n);
   target.resize(n_slots);
+  block_virial.resize(n);
+  slot_virial.resize(n);
 
   // Within each chunk first, counted from its own beginning.
   std::vector<std::vector<std::int32_t>> place_of_thread(omp_get_max_threads());
@@ -149,6 +151,20 @@ bool LoadSums::list_entry(const std::int32_t body_index, const std::int32_t entr
   *place = entry;
   ++body_count[body_index];
   return true;
+}
+
+void LoadSums::add_virial(Virial<double> &sum) const
+{
+  for (std::size_t chunk = 0; chunk < n_chunks(); ++chunk)
+  {
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      sum.branch += math::lane<Pack>(block_virial[chunk].branch, lane);
+      sum.image += math::lane<Pack>(block_virial[chunk].image, lane);
+    }
+    sum.branch += slot_virial[chunk].branch;
+    sum.image += slot_virial[chunk].image;
+  }
 }
 
 } // namespace bergamo::dem

@@ -31,6 +31,21 @@ struct alignas(64) BodyLoad
   }
 };
 
+/// What the contacts of a periodic cell add up to, by direction; forces on body 1, with the weights [N m].
+template <class Real>
+struct Virial
+{
+  Vector3<Real> branch{Real(0.), Real(0.), Real(0.)}; ///< sum of branch * force: volume * mean stress (Wellmann 5.3)
+  Vector3<Real> image{Real(0.), Real(0.), Real(0.)};  ///< sum of shifts of the second grains' images * force (5.5)
+
+  /// @param half_line half the branch, shift of the second grain's image [m]
+  void add(const Vector3<Real> &half_line, const Vector3<Real> &shift, const Vector3<Real> &force)
+  {
+    branch += Real(2.) * half_line.cwiseProduct(force);
+    image += shift.cwiseProduct(force);
+  }
+};
+
 /// Sums what contacts give to their bodies without locks, and the same bits on any number of threads: the slots of the
 /// contacts make chunks of fixed size, a chunk sums by itself for each of its bodies, and a body adds up what its
 /// chunks hold for it, in their order. Neighbours share chunks, so that a chunk has far fewer bodies than contacts and
@@ -57,6 +72,8 @@ public:
   {
     for (auto entry = row[chunk]; entry < row[chunk] + count[chunk]; ++entry)
       load[entry] = {};
+    block_virial[chunk] = {};
+    slot_virial[chunk] = {};
   }
 
   /// Adds what a block of contacts gives, in the order of the slots; an unused slot must give nothing.
@@ -88,6 +105,13 @@ public:
     on2.torque.head<3>() += r.torque2;
   }
 
+  /// The virial of a chunk's blocks, and of its single contacts, to be added to.
+  Virial<Pack> &virial_of_block(const std::size_t block) { return block_virial[block * pack_width / slots_per_chunk]; }
+  Virial<double> &virial_of_slot(const std::int32_t slot) { return slot_virial[slot / slots_per_chunk]; }
+
+  /// Adds to `sum` the virial of all contacts.
+  void add_virial(Virial<double> &sum) const;
+
   /// Adds to `sum` what all contacts give to a body.
   void add_load(const std::size_t body_index, BodyLoad &sum) const
   {
@@ -110,9 +134,11 @@ private:
   bool current = false;
   // Entries of chunk c: row[c] .. row[c] + count[c], with room for more up to row[c + 1].
   std::vector<std::int32_t> row, count;
-  std::vector<std::int32_t> body; // by entry
-  std::vector<BodyLoad> load;     // by entry, of this step
-  std::vector<Targets> target;    // by slot
+  std::vector<std::int32_t> body;         // by entry
+  std::vector<BodyLoad> load;             // by entry, of this step
+  std::vector<Targets> target;            // by slot
+  std::vector<Virial<Pack>> block_virial; // by chunk, of this step
+  std::vector<Virial<double>> slot_virial;
   // Entries of body b, in the order of the chunks: body_entry[body_row[b]] .. + body_count[b], with room as above.
   std::vector<std::int32_t> body_row, body_count, body_entry;
 };

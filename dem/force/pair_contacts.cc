@@ -18,19 +18,26 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A pair of spheres whose contact begins in this step.
 struct NewSphereContact
 {
-  std::int32_t slot;
+  std::int32_t pair, slot;
   Resultant resultant;
 };
 
-PairMotion<double> motion_of(const Particles &p, const std::int32_t i, const std::int32_t j, const double time_step)
+/// Two grains, the second one as an image of itself.
+struct Grains
 {
-  return {p, [=](int) { return i; }, [=](int) { return j; }, time_step};
+  std::int32_t first, second;
+  Image image;
+};
+
+PairMotion<double> motion_of(const Particles &p, const Grains &g, const double time_step)
+{
+  return {p, [=](int) { return g.first; }, [=](int) { return g.second; }, [=](int) { return g.image; }, time_step};
 }
 
-SphereGeometry<double> sphere_geometry(const Particles &p, const std::int32_t i, const std::int32_t j)
+SphereGeometry<double> sphere_geometry(const Particles &p, const Grains &g)
 {
-  return {0.5 * (p.position[j] - p.position[i]), p.bounding_radius[i] + p.bounding_radius[j],
-          p.bounding_radius[i] - p.bounding_radius[j]};
+  const double radius1 = p.bounding_radius[g.first], radius2 = p.bounding_radius[g.second];
+  return {0.5 * p.branch(g.first, g.second, g.image), radius1 + radius2, radius1 - radius2};
 }
 
 double sphere_weight(const Particles &p, const std::int32_t i, const std::int32_t j)
@@ -77,14 +84,14 @@ PairContacts::Screened PairContacts::screen(const Particles &p)
       screened.candidates.of(part).push_back(pair);
       return;
     }
-    const double overlap = sphere_geometry(p, i, j).overlap;
+    const double overlap = sphere_geometry(p, {i, j, list.image[pair]}).overlap;
     if (overlap > 0.)
       screened.new_spheres.of(part).push_back(pair);
     else
-      rest_until[pair] = p.motion[i] + p.motion[j] - overlap;
+      rest_until[pair] = p.motion[i] + p.motion[j] + p.cell.motion - overlap;
   };
   const auto motion_of_pair = [&](const std::size_t pair)
-  { return p.motion[list.first[pair]] + p.motion[list.second[pair]]; };
+  { return p.motion[list.first[pair]] + p.motion[list.second[pair]] + p.cell.motion; };
   const std::size_t n_packs = list.size() / pack_width;
   parallel_ranges(n_packs, 64,
                   [&](const std::size_t part, const std::size_t begin, const std::size_t end)
@@ -132,11 +139,11 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
   std::vector<ContactSearch> searches;
   due.for_each(
       [&](const std::int32_t s) {
-        searches.push_back({grains.pair[s], grains.first[s], grains.second[s], s});
+        searches.push_back({grains.pair[s], grains.first[s], grains.second[s], grains.image[s], s});
       });
   screened.candidates.for_each(
       [&](const std::int32_t pair) {
-        searches.push_back({pair, list.first[pair], list.second[pair], apart});
+        searches.push_back({pair, list.first[pair], list.second[pair], list.image[pair], apart});
       });
   const std::size_t n_packs = (searches.size() + pack_width - 1) / pack_width;
   std::vector<ContactLosses> pack_losses(n_packs);
@@ -161,11 +168,12 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
     n_undecided += s.is_undecided;
     if (s.is_touching)
       continue;
-    const double rest = p.motion[s.first] + p.motion[s.second] + s.gap;
+    const double rest = p.motion[s.first] + p.motion[s.second] + p.cell.motion + s.gap;
     if (s.slot != apart)
     {
       const ContactState<double> state = grains.get(s.slot);
-      losses += separate(state, state.normal, motion_of(p, s.first, s.second, time_step).displacement(state.point));
+      const PairMotion<double> motion = motion_of(p, {s.first, s.second, s.image}, time_step);
+      losses += separate(state, state.normal, motion.displacement(state.point));
       grains.remove(s.slot);
       slot[s.pair] = apart;
     }
@@ -175,7 +183,7 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
       [&](const BegunContact &c)
       {
         ContactSearch &s = searches[c.search];
-        s.slot = slot[s.pair] = grains.add(s.pair, s.first, s.second, c.state, slot_near(s.pair));
+        s.slot = slot[s.pair] = grains.add({s.pair, s.first, s.second, s.image}, c.state, slot_near(s.pair));
         grain_loads.take(s.slot, s.first, s.second);
         rest_until[s.pair] = infinity;
       });
@@ -183,11 +191,12 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
       [&](const std::int32_t s)
       {
         const std::int32_t i = spheres.first[s], j = spheres.second[s], pair = spheres.pair[s];
-        const SphereGeometry<double> g = sphere_geometry(p, i, j);
-        losses += separate(spheres.get(s), g.normal, motion_of(p, i, j, time_step).displacement(g.point));
+        const Grains two{i, j, spheres.image[s]};
+        const SphereGeometry<double> g = sphere_geometry(p, two);
+        losses += separate(spheres.get(s), g.normal, motion_of(p, two, time_step).displacement(g.point));
         spheres.remove(s);
         slot[pair] = apart;
-        rest_until[pair] = p.motion[i] + p.motion[j] - g.overlap;
+        rest_until[pair] = p.motion[i] + p.motion[j] + p.cell.motion - g.overlap;
       });
   std::vector<NewSphereContact> new_spheres;
   screened.new_spheres.for_each(
@@ -195,20 +204,30 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
       {
         const std::int32_t i = list.first[pair], j = list.second[pair];
         SphereContactState<double> state = begin_spheres(p, i, j, law);
-        const FollowedSpheres<double> f = follow(state, motion_of(p, i, j, time_step), law, losses);
-        slot[pair] = spheres.add(pair, i, j, state, slot_near(pair));
+        const FollowedSpheres<double> f = follow(state, motion_of(p, {i, j, list.image[pair]}, time_step), law, losses);
+        slot[pair] = spheres.add({pair, i, j, list.image[pair]}, state, slot_near(pair));
         sphere_loads.take(slot[pair], i, j);
         rest_until[pair] = infinity;
-        new_spheres.push_back({slot[pair], {f.force, f.torque1, f.torque2}});
+        new_spheres.push_back({pair, slot[pair], {f.force, f.torque1, f.torque2}});
       });
 
   list_bodies(p.size());
   for (const ContactSearch &s : searches)
     if (s.is_touching)
-      grain_loads.add(s.slot, s.resultant);
+      add_load_of(p, s.pair, s.resultant);
   for (const NewSphereContact &s : new_spheres)
-    sphere_loads.add(s.slot, s.resultant);
+    add_load_of(p, s.pair, s.resultant);
   watch.lap(times.searches);
+}
+
+void PairContacts::add_load_of(const Particles &p, const std::int32_t pair, const Resultant &resultant)
+{
+  const std::int32_t i = list.first[pair], j = list.second[pair];
+  LoadSums &loads = are_spheres(i, j) ? sphere_loads : grain_loads;
+  loads.add(slot[pair], resultant);
+  const Image image = list.image[pair];
+  if (p.cell.is_periodic())
+    loads.virial_of_slot(slot[pair]).add(0.5 * p.branch(i, j, image), p.cell.place[image], resultant.force);
 }
 
 void PairContacts::list_bodies(const std::size_t n_grains)
@@ -252,13 +271,15 @@ std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
     if (slot[pair] == apart)
       continue;
     const std::int32_t i = list.first[pair], j = list.second[pair];
+    const Image image = list.image[pair];
+    const Vec3 branch = p.branch(i, j, image);
     if (!are_spheres(i, j))
     {
-      contacts.push_back({i, j, grains.get(slot[pair])});
+      contacts.push_back({i, j, image, branch, grains.get(slot[pair])});
       continue;
     }
     const SphereContactState<double> sphere = spheres.get(slot[pair]);
-    const SphereGeometry<double> g = sphere_geometry(p, i, j);
+    const SphereGeometry<double> g = sphere_geometry(p, {i, j, image});
     ContactState<double> s = ContactState<double>::begin();
     s.normal = g.normal;
     s.point = g.point;
@@ -268,7 +289,7 @@ std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
     s.stiffness = {sphere.normal_stiffness, sphere.tangential_stiffness, sphere.tangential_stiffness};
     s.reduced_mass = sphere.reduced_mass;
     s.weight = sphere.weight;
-    contacts.push_back({i, j, s});
+    contacts.push_back({i, j, image, branch, s});
   }
   return contacts;
 }

@@ -18,6 +18,8 @@ namespace bergamo::dem
 struct TouchingContact
 {
   std::int32_t first, second; ///< grains
+  Image image;                ///< of the second grain, see PeriodicCell
+  Vec3 branch;                ///< from the centre of the first grain to that of the second one's image [m]
   ContactState<double> state;
 };
 
@@ -69,6 +71,15 @@ struct PairContacts
     sphere_loads.add_load(i, load);
   }
 
+  /// Of all contacts at this step; zero without a periodic cell.
+  Virial<double> virial() const
+  {
+    Virial<double> sum;
+    grain_loads.add_virial(sum);
+    sphere_loads.add_virial(sum);
+    return sum;
+  }
+
   /// Has every contact searched anew at the next step, e.g. after weights of grains have been changed.
   void refresh(const Particles &particles);
 
@@ -81,6 +92,7 @@ private:
   Screened screen(const Particles &particles);
   std::int32_t slot_near(std::int32_t pair) const;
   void list_bodies(std::size_t n_grains);
+  void add_load_of(const Particles &particles, std::int32_t pair, const Resultant &resultant);
 
   LoadSums grain_loads, sphere_loads;
 };

@@ -16,8 +16,9 @@ struct PairMotion
   double time_step;
 
   /// @param first, second grains of a lane: first(lane), second(lane)
-  template <class First, class Second>
-  PairMotion(const Particles &p, const First &first, const Second &second, const double time_step)
+  /// @param image of the second grain: image(lane), see PeriodicCell
+  template <class First, class Second, class ImageOf>
+  PairMotion(const Particles &p, const First &first, const Second &second, const ImageOf &image, const double time_step)
       : time_step(time_step)
   {
     const auto load = [](const std::vector<Vec3> &values, const auto &index)
@@ -29,6 +30,14 @@ struct PairMotion
     const Vector3<Real> spin1 = load(p.angular_velocity, first), spin2 = load(p.angular_velocity, second);
     spin_sum = spin1 + spin2;
     spin_difference = spin2 - spin1;
+    if (!p.cell.is_periodic())
+      return;
+    const auto load_image = [&](const auto &values)
+    {
+      return math::gather_vectors<Real>([&](const int lane) -> const Vec3 & { return values[image(lane)]; });
+    };
+    half_line += load_image(p.cell.place) * Real(0.5);
+    velocity += load_image(p.cell.velocity);
   }
 
   /// Motion of body 2 relative to body 1 at a contact point, with the arms of the middle of the step [m].

@@ -41,7 +41,7 @@ std::int32_t slot_of(const std::size_t k, const std::size_t n)
 /// Moves contacts to slots in the order of their pairs, nearly. @param pairs those that touch, in their order
 template <template <class> class State>
 void compact(ContactStore<State> &store, const std::vector<std::int32_t> &pairs,
-             std::vector<std::int32_t> &slot_of_pair)
+             const std::vector<Image> &image_of_pair, std::vector<std::int32_t> &slot_of_pair)
 {
   ContactStore<State> ordered;
   ordered.resize(pairs.size());
@@ -49,7 +49,7 @@ void compact(ContactStore<State> &store, const std::vector<std::int32_t> &pairs,
                [&](const std::size_t k)
                {
                  const std::int32_t pair = pairs[k], from = slot_of_pair[pair], to = slot_of(k, pairs.size());
-                 ordered.put(to, pair, store.first[from], store.second[from], store.get(from));
+                 ordered.put(to, {pair, store.first[from], store.second[from], image_of_pair[pair]}, store.get(from));
                  slot_of_pair[pair] = to;
                });
   store = std::move(ordered);
@@ -126,8 +126,8 @@ void PairContacts::renew(VerletList new_list, const Particles &particles)
             (is_of_spheres ? sphere_pairs : grain_pairs).of(part).push_back(static_cast<std::int32_t>(pair));
           }
       });
-  compact(grains, grain_pairs.all(), slot);
-  compact(spheres, sphere_pairs.all(), slot);
+  compact(grains, grain_pairs.all(), list.image, slot);
+  compact(spheres, sphere_pairs.all(), list.image, slot);
   grain_loads.slots_were_moved();
   sphere_loads.slots_were_moved();
 }
@@ -168,6 +168,8 @@ void PairContacts::reorder(const std::vector<std::int32_t> &order, const Particl
     ++sorted.row[place.first + 1];
     sorted.first.push_back(place.first);
     sorted.second.push_back(place.second);
+    const Image image = list.image[place.pair];
+    sorted.image.push_back(place.is_exchanged ? opposite(image) : image);
     sorted_slot.push_back(slot[place.pair]);
     sorted_rest.push_back(rest_until[place.pair]);
     const float sign = place.is_exchanged ? -1.f : 1.f;

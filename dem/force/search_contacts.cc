@@ -48,6 +48,7 @@ void search_contacts(const std::span<ContactSearch> searches, const std::size_t 
   { return searches[from + (lane < n ? lane : 0)]; };
   const auto first = [&](const int lane) { return search_of(lane).first; };
   const auto second = [&](const int lane) { return search_of(lane).second; };
+  const auto image = [&](const int lane) { return search_of(lane).image; };
   const auto load = [&](const std::vector<double> &values, const auto &index)
   { return math::generate<Pack>([&](const int lane) { return values[index(lane)]; }); };
 
@@ -64,7 +65,11 @@ void search_contacts(const std::span<ContactSearch> searches, const std::size_t 
       guess[d][lane] = has_contact ? math::lane(s.normal[d], lane) : context.direction[search.pair][d];
   }
 
-  const Pose<Pack> body1 = gather_pose<Pack>(p, first), body2 = gather_pose<Pack>(p, second);
+  const Pose<Pack> body1 = gather_pose<Pack>(p, first);
+  Pose<Pack> body2 = gather_pose<Pack>(p, second);
+  if (p.cell.is_periodic())
+    body2.position +=
+        math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.cell.place[image(lane)]; });
   const FoundContacts<Pack> found = search_pairs<Pack>(body1, body2, guess, n);
   for (int lane = 0; lane < n; ++lane)
   {
@@ -78,7 +83,7 @@ void search_contacts(const std::span<ContactSearch> searches, const std::size_t 
   if (!math::any(found.overlap > 0.))
     return;
 
-  const PairMotion<Pack> motion(p, first, second, context.time_step);
+  const PairMotion<Pack> motion(p, first, second, image, context.time_step);
   const double bound = context.parameters.curvature_bound;
   const RelativeCurvature<Pack> curvature =
       relative_curvature(tangent_frame(found.normal), found.radii1, curvature_bounds(body1.shape, bound), found.radii2,

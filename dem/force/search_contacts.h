@@ -20,6 +20,7 @@ struct ContactSearch
 {
   std::int32_t pair;          ///< of the Verlet list
   std::int32_t first, second; ///< grains
+  Image image;                ///< of the second grain
   std::int32_t slot;          ///< of a contact that touched last step, else negative
 
   bool is_touching = false;

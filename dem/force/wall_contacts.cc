@@ -112,7 +112,7 @@ void WallContacts::renew(const Particles &particles, const std::vector<PlaneWall
       leave_until(plane);
       fresh.rest_until.back() = rest_until[old];
       if (is_touching(old))
-        fresh.slot.back() = fresh.touching.add(candidate, grain, plane, state(old));
+        fresh.slot.back() = fresh.touching.add({candidate, grain, plane}, state(old));
       ++old;
     };
     for (std::size_t w = 0; w < walls.size() && !particles.is_fixed(i); ++w)
@@ -228,7 +228,7 @@ void WallContacts::compute(const Particles &p, std::vector<PlaneWall> &walls, co
       touching.set(slot[k], l.state);
     else if (l.overlap > 0.)
     {
-      slot[k] = touching.add(k, i, wall[k], l.state, k > 0 ? slot[k - 1] : apart);
+      slot[k] = touching.add({k, i, wall[k]}, l.state, k > 0 ? slot[k - 1] : apart);
       loads.take(slot[k], i, body_of(wall[k], p.size()));
       rest_until[k] = infinity;
     }

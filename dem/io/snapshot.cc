@@ -67,6 +67,20 @@ std::vector<std::int32_t> read_indices(const ArchiveReader &archive, const std::
   return {values.begin(), values.end()};
 }
 
+/// State of a periodic cell, in a fixed order.
+template <class Cell, class Hidden, class Visit>
+void visit_cell(Cell &cell, Hidden &h, Visit &&visit)
+{
+  visit("dem/cell/edges", cell.edges);
+  visit("dem/cell/rate", cell.rate);
+  visit("dem/cell/acceleration", cell.acceleration);
+  visit("dem/cell/edges_when_built", h.edges_when_built);
+  visit("dem/cell/image_force", h.cell_work.image_force);
+  visit("dem/cell/work", h.cell_work.sum);
+  visit("dem/cell/half_kick", h.cell_work.half_kick);
+  visit("dem/cell/motion", cell.motion);
+}
+
 /// Every array of doubles of the simulation, once, for writing and for reading.
 template <class Simulation, class Hidden, class Visit>
 void visit_arrays(Simulation &s, Hidden &h, Visit &&visit)
@@ -141,6 +155,31 @@ void visit_scalars(Simulation &s, Hidden &h, Visit &&visit)
   visit("dem/wall_contacts/n_searches", s.wall_contacts.n_searches);
 }
 
+void read_cell(const ArchiveReader &archive, Simulation &s, Simulation::Hidden &hidden)
+{
+  visit_cell(s.particles.cell, hidden,
+             [&]<class T>(const char *name, T &value)
+             {
+               if constexpr (std::is_same_v<T, Vec3>)
+                 archive.read_into(name, std::span<double>(value.data(), 3));
+               else
+                 value = archive.read_double(name);
+             });
+  s.particles.cell.update_images();
+  const std::vector<std::int32_t> images = read_indices(archive, "dem/pairs/image");
+  s.pairs.list.image.assign(images.begin(), images.end());
+}
+
+/// Gives the slots of a store the images of their pairs.
+template <template <class> class State>
+void take_images(const VerletList &list, ContactStore<State> &store)
+{
+  store.image.assign(store.n_slots(), own_image);
+  for (std::size_t slot = 0; slot < store.n_slots(); ++slot)
+    if (store.pair[slot] != store.free_slot)
+      store.image[slot] = list.image[store.pair[slot]];
+}
+
 } // namespace
 
 void write_simulation(ArchiveWriter &archive, const Simulation &s)
@@ -151,6 +190,18 @@ void write_simulation(ArchiveWriter &archive, const Simulation &s)
   visit_arrays(s, s.hidden(), [&](const char *name, const auto &values) { archive.write(name, as_doubles(values)); });
   visit_indices(s, [&](const char *name, const auto &values) { write_indices(archive, name, values); });
   visit_scalars(s, s.hidden(), [&](const char *name, const auto value) { archive.write(name, value); });
+  if (s.particles.cell.is_periodic())
+  {
+    visit_cell(s.particles.cell, s.hidden(),
+               [&]<class T>(const char *name, const T &value)
+               {
+                 if constexpr (std::is_same_v<T, Vec3>)
+                   archive.write(name, std::span<const double>(value.data(), 3));
+                 else
+                   archive.write(name, value);
+               });
+    write_indices(archive, "dem/pairs/image", {s.pairs.list.image.begin(), s.pairs.list.image.end()});
+  }
   archive.write("dem/pairs/separating_direction", as_doubles(as_vectors(s.pairs.separating_direction)));
   write_states(archive, "dem/pairs/grains/state", s.pairs.grains);
   write_states(archive, "dem/pairs/spheres/state", s.pairs.spheres);
@@ -176,12 +227,17 @@ std::unique_ptr<Simulation> read_simulation(const ArchiveReader &archive, const 
                   else
                     value = archive.read_integer(name);
                 });
+  s.pairs.list.image.assign(s.pairs.list.size(), own_image);
+  if (archive.has("dem/cell/edges"))
+    read_cell(archive, s, hidden);
   for (const Superquadric &shape : s.particles.shape)
     s.pairs.is_sphere.push_back(shape.is_sphere());
   std::vector<Vec3> directions;
   read_structs(archive, "dem/pairs/separating_direction", directions);
   for (const Vec3 &d : directions)
     s.pairs.separating_direction.push_back(d.cast<float>());
+  take_images(s.pairs.list, s.pairs.grains);
+  take_images(s.pairs.list, s.pairs.spheres);
   read_states(archive, "dem/pairs/grains/state", s.pairs.grains);
   read_states(archive, "dem/pairs/spheres/state", s.pairs.spheres);
   read_states(archive, "dem/wall_contacts/touching/state", s.wall_contacts.touching);

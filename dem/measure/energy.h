@@ -22,11 +22,13 @@ struct GrainEnergy
   double wall_work = 0.;      ///< done by walls on grains
   double gravity_work = 0.;
   double external_work = 0.; ///< done by Particles::external_force
+  double cell_work = 0.;     ///< done by the deformation of a periodic cell
 
   double stored() const { return kinetic + normal + tangential; }
   double balance() const
   {
-    return stored() + friction_loss + viscous_loss - curvature_work - wall_work - gravity_work - external_work;
+    return stored() + friction_loss + viscous_loss - curvature_work - wall_work - gravity_work - external_work -
+           cell_work;
   }
 };
 

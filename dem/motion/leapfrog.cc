@@ -44,7 +44,7 @@ void store(std::vector<Vec3> &values, const Lanes &grains, const Vector3<Pack> &
 }
 
 /// @return whether all new states are finite, else none is stored; `largest` grows to the largest motion of a grain
-bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const double dt, Pack &largest)
+bool advance_lanes(Particles &p, const Lanes &grains, const AccelerationField &field, const double dt, Pack &largest)
 {
   const Pack weight = load(p.weight, grains), kick = dt / weight;
   const Pack mass = load(p.mass, grains), acceleration = kick / mass;
@@ -52,9 +52,12 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
   if (!p.external_force.empty())
     force += load(p.external_force, grains);
   const Pack free = math::select(mass < infinity, Pack(1.), Pack(0.)); // 0 for a fixed grain
-  const Vector3<Pack> fall(free * (dt * gravity[0]), free * (dt * gravity[1]), free * (dt * gravity[2]));
-  const Vector3<Pack> velocity = load(p.velocity, grains) + force * acceleration + fall;
-  const Vector3<Pack> position = load(p.position, grains) + velocity * Pack(dt);
+  const Vector3<Pack> old_position = load(p.position, grains);
+  Vector3<Pack> field_kick;
+  for (int d = 0; d < 3; ++d)
+    field_kick[d] = free * (dt * field.constant[d] + dt * field.gradient[d] * old_position[d]);
+  const Vector3<Pack> velocity = load(p.velocity, grains) + force * acceleration + field_kick;
+  const Vector3<Pack> position = old_position + velocity * Pack(dt);
   const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * (kick * free);
 
   const auto number = [&](const int d)
@@ -82,7 +85,7 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
 
 } // namespace
 
-bool advance(Particles &particles, const Vec3 &gravity, const double time_step)
+bool advance(Particles &particles, const AccelerationField &field, const double time_step)
 {
   struct Found
   {
@@ -97,7 +100,7 @@ bool advance(Particles &particles, const Vec3 &gravity, const double time_step)
                     bool is_finite = true;
                     Pack largest(0.);
                     for (std::size_t pack = begin; pack < end; ++pack)
-                      is_finite &= advance_lanes(particles, {pack * pack_width, n}, gravity, time_step, largest);
+                      is_finite &= advance_lanes(particles, {pack * pack_width, n}, field, time_step, largest);
                     double most = 0.;
                     for (int lane = 0; lane < pack_width; ++lane)
                       most = std::max(most, math::lane(largest, lane));

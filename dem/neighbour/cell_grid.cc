@@ -9,7 +9,7 @@
 namespace bergamo::dem
 {
 
-CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size)
+CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size, const PeriodicCell &period)
 {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
   for (const Vec3 &x : positions)
@@ -17,13 +17,22 @@ CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size)
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  const Vec3 extent = positions.empty() ? Vec3::Zero() : Vec3(high - low);
+  Vec3 extent = positions.empty() ? Vec3::Zero() : Vec3(high - low);
+  if (period.is_periodic())
+  {
+    low = Vec3::Zero();
+    extent = period.edges;
+  }
   const double most_cells = 8. * positions.size() + 64.;
-  const auto cells = [&](const double size) { return (extent / size).array().floor() + 1.; };
+  const auto cells = [&](const double size)
+  { return (extent / size).array().floor().max(1.) + (period.is_periodic() ? 0. : 1.); };
   while (cells(cell_size).prod() > most_cells)
     cell_size *= 1.5;
   for (int d = 0; d < 3; ++d)
     n[d] = static_cast<int>(cells(cell_size)[d]);
+  Vec3 edge = Vec3::Constant(cell_size);
+  if (period.is_periodic())
+    edge = extent.cwiseQuotient(Vec3(n[0], n[1], n[2]));
 
   cell_of.resize(positions.size());
   begin.assign(static_cast<std::size_t>(n[0]) * n[1] * n[2] + 1, 0);
@@ -32,7 +41,7 @@ CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size)
                {
                  int k[3];
                  for (int d = 0; d < 3; ++d)
-                   k[d] = std::clamp(static_cast<int>((positions[i][d] - low[d]) / cell_size), 0, n[d] - 1);
+                   k[d] = std::clamp(static_cast<int>((positions[i][d] - low[d]) / edge[d]), 0, n[d] - 1);
                  cell_of[i] = (k[2] * n[1] + k[1]) * n[0] + k[0];
                });
   for (const std::int32_t cell : cell_of)

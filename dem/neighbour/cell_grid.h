@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/core/types.h"
+#include "dem/state/periodic_cell.h"
 
 #include <cstdint>
 #include <span>
@@ -9,11 +10,13 @@
 namespace bergamo::dem
 {
 
-/// Uniform grid of cubic cells over the particles' centres; particles of a cell in ascending order.
+/// Uniform grid of cells over the particles' centres; particles of a cell in ascending order.
 struct CellGrid
 {
-  /// @param cell_size edge of a cell [m], > 0; enlarged where the box would need more than a few cells per particle.
-  CellGrid(std::span<const Vec3> positions, double cell_size);
+  /// @param cell_size least edge of a cell [m], > 0; enlarged where the box would need more than a few cells per
+  /// particle.
+  /// @param period if periodic, the grid's cells fill it
+  CellGrid(std::span<const Vec3> positions, double cell_size, const PeriodicCell &period = {});
 
   int n[3];                        ///< cells per direction
   std::vector<std::int32_t> begin; ///< begin[cell] .. begin[cell + 1] in particles

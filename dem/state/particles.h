@@ -2,6 +2,7 @@
 
 #include "dem/core/types.h"
 #include "dem/shape/superquadric.h"
+#include "dem/state/periodic_cell.h"
 
 #include <cmath>
 #include <cstdint>
@@ -36,6 +37,14 @@ struct Particles
 
   std::vector<double> motion; ///< path length that bounds the motion of any surface point since the start [m]
   double largest_motion = 0.; ///< sum over the steps of the largest growth of any grain's motion [m]
+
+  PeriodicCell cell; ///< in which the grains repeat themselves, if any
+
+  /// From the centre of grain i to the centre of an image of grain j [m].
+  Vec3 branch(const std::int32_t i, const std::int32_t j, const Image image) const
+  {
+    return position[j] - position[i] + cell.place[image];
+  }
 
   std::size_t size() const { return position.size(); }
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "dem/core/types.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace bergamo::dem
+{
+
+/// One of the 27 images of a grain in a periodic cell and its neighbours: n1 + 3 n2 + 9 n3 + 13 for a shift by n_i L_i,
+/// n_i in {-1, 0, 1} (Wellmann 5.2).
+using Image = std::int8_t;
+constexpr int n_images = 27;
+constexpr Image own_image = 13; ///< no shift
+
+constexpr Image opposite(const Image image)
+{
+  return static_cast<Image>(n_images - 1 - image);
+}
+
+/// Shift of an image in edges of the cell.
+inline Vec3 shift_of(const Image image)
+{
+  return Vec3(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1);
+}
+
+/// Rectangular cell from the origin to `edges` that repeats itself in all directions (Wellmann 5.1). Grains outside are
+/// put back when the neighbours are renewed. A grain's image has the grain's velocity plus n_i dL_i/dt; a change of
+/// dL/dt goes to all grains in proportion to their place, so that no place and no face of the cell is special.
+struct PeriodicCell
+{
+  /// Nothing repeats itself.
+  PeriodicCell();
+
+  /// @param edges lengths L [m], > 0
+  explicit PeriodicCell(const Vec3 &edges);
+
+  bool is_periodic() const { return edges[0] < std::numeric_limits<double>::infinity(); }
+  double volume() const { return edges.prod(); } ///< [m^3]
+
+  /// The image of a grain that is nearest to another. @param line from the other grain to this one [m]
+  Image nearest_image(const Vec3 &line) const;
+
+  /// Goes on to the next step. @param time_step [s]
+  void advance(double time_step);
+
+  /// Follows edges and rate.
+  void update_images();
+
+  Vec3 edges;                       ///< L at this step [m]
+  Vec3 rate = Vec3::Zero();         ///< dL/dt at the half step before [m/s]
+  Vec3 acceleration = Vec3::Zero(); ///< d2L/dt2 at this step, to be set by who controls the cell [m/s^2]
+  double motion = 0.;               ///< path that bounds the motion of images against one another since the start [m]
+
+  std::array<Vec3, n_images> place, velocity; ///< of the images against the grain itself [m, m/s]
+};
+
+} // namespace bergamo::dem
