@@ -252,9 +252,10 @@ std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
     if (slot[pair] == apart)
       continue;
     const std::int32_t i = list.first[pair], j = list.second[pair];
+    const Vec3 branch = p.position[j] - p.position[i];
     if (!are_spheres(i, j))
     {
-      contacts.push_back({i, j, grains.get(slot[pair])});
+      contacts.push_back({i, j, grains.get(slot[pair]), branch});
       continue;
     }
     const SphereContactState<double> sphere = spheres.get(slot[pair]);
@@ -268,7 +269,7 @@ std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
     s.stiffness = {sphere.normal_stiffness, sphere.tangential_stiffness, sphere.tangential_stiffness};
     s.reduced_mass = sphere.reduced_mass;
     s.weight = sphere.weight;
-    contacts.push_back({i, j, s});
+    contacts.push_back({i, j, s, branch});
   }
   return contacts;
 }

@@ -19,6 +19,7 @@ struct TouchingContact
 {
   std::int32_t first, second; ///< grains
   ContactState<double> state;
+  Vec3 branch; ///< centre of body 2 minus centre of body 1 [m]
 };
 
 /// Contacts between grains: the Verlet list, and the history of the touching pairs in blocks of SIMD packs. A step

@@ -53,9 +53,9 @@ public:
       damped += viscous.dot(d);
       return stiffness_factor * elastic + damping_factor * viscous;
     };
-    for (const auto &[i, j, s] : pairs)
+    for (const auto &[i, j, s, branch] : pairs)
     {
-      const Vec3 half_line = 0.5 * (p.position[j] - p.position[i]);
+      const Vec3 half_line = 0.5 * branch;
       const Vec3 arm1 = s.point + half_line, arm2 = s.point - half_line;
       const Vec3 f = force_of(
           s, pair_law, x.translation[i] + x.rotation[i].cross(arm1) - x.translation[j] - x.rotation[j].cross(arm2));
