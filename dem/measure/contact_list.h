@@ -15,7 +15,7 @@ inline constexpr std::int32_t no_grain = -1;
 /// ends at the contact point, where the boundary is, so that stresses of a packing between walls are complete.
 std::vector<TouchingContact> touching_walls(const WallContacts &walls);
 
-/// Place of a contact with a grain or a wall, beside body 1 [m].
+/// Place of a contact with a grain or a wall [m]; in a periodic cell beside body 1, maybe outside of the cell.
 Vec3 contact_point(const TouchingContact &contact, const Particles &particles);
 
 /// Force on body 1 with the contact's weight [N].

@@ -52,7 +52,8 @@ std::vector<Sphere> equivalent_spheres(const Particles &particles)
   std::vector<Sphere> spheres;
   spheres.reserve(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i)
-    spheres.push_back({particles.position[i], equivalent_radius(particles.shape[i])});
+    if (!particles.is_fixed(i))
+      spheres.push_back({particles.position[i], equivalent_radius(particles.shape[i])});
   return spheres;
 }
 

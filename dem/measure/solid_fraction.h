@@ -23,7 +23,7 @@ struct Sphere
 /// Volume that two spheres share [m^3]: a lens, the smaller sphere, or nothing.
 double shared_volume(const Sphere &a, const Sphere &b);
 
-/// Every grain, fixed ones too, as a sphere with its centre and volume. A periodic cell's images are the caller's to
+/// Every grain but fixed ones as a sphere with its centre and volume. Images of a periodic cell are the caller's to
 /// add.
 std::vector<Sphere> equivalent_spheres(const Particles &particles);
 
