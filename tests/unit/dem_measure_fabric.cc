@@ -96,6 +96,12 @@ TEST_CASE("walls and fixed grains support, but do not count as grains")
   CHECK(z.n_rattlers == 4);
   CHECK(z.without_rattlers == 4.);
   CHECK(z.mean == Approx((26. - 4.) / 8.).epsilon(rounding));
+
+  // A fixed end of the chain holds it where two contacts suffice, with one contact itself.
+  particles = measured::unit_spheres(9);
+  particles.fix(7);
+  CHECK(find_rattlers(particles, cluster_with_chain(), {}, 2) ==
+        std::vector<bool>({false, false, false, false, false, false, false, false, true}));
 }
 
 TEST_CASE("an assembly without contacts has coordination numbers and fabric of zero")
@@ -117,6 +123,15 @@ TEST_CASE("fabric of parallel contacts")
   CHECK((fabric - expected).norm() < rounding);
   CHECK(equivalent(fabric) == Approx(1.).epsilon(rounding));
   CHECK(fabric_anisotropy(fabric) == Approx(7.5).epsilon(rounding));
+}
+
+TEST_CASE("fabric counts contacts whatever their forces and weights")
+{
+  std::vector<TouchingContact> contacts = {contact(0, 1, Vec3::UnitX(), 5.), contact(1, 2, Vec3::UnitY(), 1.),
+                                           contact(2, 3, Vec3::UnitY(), 1.), contact(3, 4, Vec3::UnitZ(), 1.)};
+  contacts[0].state.weight = 0.1;
+  const Mat3 expected = Vec3(0.25, 0.5, 0.25).asDiagonal();
+  CHECK((fabric_tensor(contacts) - expected).norm() < rounding);
 }
 
 TEST_CASE("anisotropy is the difference of the normals' density along and across the axis")
