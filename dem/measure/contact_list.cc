@@ -9,8 +9,11 @@ std::vector<TouchingContact> touching_walls(const WallContacts &walls)
   for (std::size_t k = 0; k < walls.size(); ++k)
     if (walls.is_touching(k))
     {
-      const ContactState<double> state = walls.state(k);
-      contacts.push_back({walls.particle[k], no_grain, state, state.point});
+      TouchingContact &contact = contacts.emplace_back();
+      contact.first = walls.particle[k];
+      contact.second = no_grain;
+      contact.state = walls.state(k);
+      contact.branch = contact.state.point;
     }
   return contacts;
 }

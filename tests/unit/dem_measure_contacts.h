@@ -17,11 +17,15 @@ using namespace bergamo::dem;
 inline TouchingContact contact(const std::int32_t first, const std::int32_t second, const Vec3 &branch,
                                const double normal_force, const Vec3 &tangential = Vec3::Zero())
 {
-  ContactState<double> s = ContactState<double>::begin();
-  s.normal = branch.normalized();
-  s.forces = {tangential, normal_force};
-  s.weight = 1.;
-  return {first, second, s, branch};
+  TouchingContact c{};
+  c.first = first;
+  c.second = second;
+  c.branch = branch;
+  c.state = ContactState<double>::begin();
+  c.state.normal = branch.normalized();
+  c.state.forces = {tangential, normal_force};
+  c.state.weight = 1.;
+  return c;
 }
 
 inline TouchingContact contact(const std::int32_t first, const std::int32_t second)
