@@ -19,7 +19,8 @@ DEM_FLOORS = {
     "motion": 6, "measure": 6,
     "simulation": 7,
     "packing": 8,
-    "io": 9,
+    "loading": 9,
+    "io": 10,
 }
 
 # Which houses a house may include.

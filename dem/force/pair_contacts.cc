@@ -275,7 +275,7 @@ std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
     const Vec3 branch = p.branch(i, j, image);
     if (!are_spheres(i, j))
     {
-      contacts.push_back({i, j, image, branch, grains.get(slot[pair])});
+      contacts.push_back({i, j, grains.get(slot[pair]), branch, image});
       continue;
     }
     const SphereContactState<double> sphere = spheres.get(slot[pair]);
@@ -289,7 +289,7 @@ std::vector<TouchingContact> PairContacts::touching(const Particles &p) const
     s.stiffness = {sphere.normal_stiffness, sphere.tangential_stiffness, sphere.tangential_stiffness};
     s.reduced_mass = sphere.reduced_mass;
     s.weight = sphere.weight;
-    contacts.push_back({i, j, image, branch, s});
+    contacts.push_back({i, j, s, branch, image});
   }
   return contacts;
 }

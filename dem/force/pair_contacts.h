@@ -18,9 +18,9 @@ namespace bergamo::dem
 struct TouchingContact
 {
   std::int32_t first, second; ///< grains
-  Image image;                ///< of the second grain, see PeriodicCell
-  Vec3 branch;                ///< from the centre of the first grain to that of the second one's image [m]
   ContactState<double> state;
+  Vec3 branch;             ///< centre of body 2, in its image, minus centre of body 1 [m]
+  Image image = own_image; ///< of body 2, see PeriodicCell
 };
 
 /// Contacts between grains: the Verlet list, and the history of the touching pairs in blocks of SIMD packs. A step

@@ -53,7 +53,7 @@ public:
       damped += viscous.dot(d);
       return stiffness_factor * elastic + damping_factor * viscous;
     };
-    for (const auto &[i, j, image, branch, s] : pairs)
+    for (const auto &[i, j, s, branch, image] : pairs)
     {
       const Vec3 half_line = 0.5 * branch;
       const Vec3 arm1 = s.point + half_line, arm2 = s.point - half_line;

@@ -44,8 +44,8 @@ double max_overlap_over_radius(const dem::Simulation &grains)
 {
   double largest = 0.;
   const auto &radius = grains.particles.bounding_radius;
-  for (const dem::TouchingContact &c : grains.pairs.touching(grains.particles))
-    largest = std::max(largest, c.state.overlap / std::min(radius[c.first], radius[c.second]));
+  for (const dem::TouchingContact &contact : grains.pairs.touching(grains.particles))
+    largest = std::max(largest, contact.state.overlap / std::min(radius[contact.first], radius[contact.second]));
   for (std::size_t k = 0; k < grains.wall_contacts.size(); ++k)
     if (grains.wall_contacts.is_touching(k))
       largest = std::max(largest, grains.wall_contacts.state(k).overlap / radius[grains.wall_contacts.particle[k]]);

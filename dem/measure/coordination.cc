@@ -1,0 +1,122 @@
+#include "dem/measure/coordination.h"
+
+namespace bergamo::dem
+{
+namespace
+{
+
+/// Contacts of every grain, with grains and walls.
+std::vector<std::int32_t> count_contacts(const std::size_t n_grains, const std::span<const TouchingContact> pairs,
+                                         const std::span<const TouchingContact> walls)
+{
+  std::vector<std::int32_t> count(n_grains, 0);
+  for (const TouchingContact &contact : pairs)
+  {
+    ++count[contact.first];
+    ++count[contact.second];
+  }
+  for (const TouchingContact &contact : walls)
+    ++count[contact.first];
+  return count;
+}
+
+/// Grains that touch grain i: other[row[i]] .. other[row[i + 1]].
+struct Neighbours
+{
+  std::vector<std::int32_t> row, other;
+
+  Neighbours(const std::size_t n_grains, const std::span<const TouchingContact> pairs)
+      : row(n_grains + 1, 0), other(2 * pairs.size())
+  {
+    for (const TouchingContact &contact : pairs)
+    {
+      ++row[contact.first + 1];
+      ++row[contact.second + 1];
+    }
+    for (std::size_t i = 0; i < n_grains; ++i)
+      row[i + 1] += row[i];
+    std::vector<std::int32_t> next(row.begin(), row.end() - 1);
+    for (const TouchingContact &contact : pairs)
+    {
+      other[next[contact.first]++] = contact.second;
+      other[next[contact.second]++] = contact.first;
+    }
+  }
+};
+
+/// Sum over some grains and their number.
+struct Mean
+{
+  std::int64_t sum = 0, n = 0;
+
+  void add(const std::int64_t value)
+  {
+    sum += value;
+    ++n;
+  }
+  double value() const { return n > 0 ? static_cast<double>(sum) / static_cast<double>(n) : 0.; }
+};
+
+} // namespace
+
+std::vector<bool> find_rattlers(const Particles &particles, const std::span<const TouchingContact> pairs,
+                                const std::span<const TouchingContact> walls, const std::int32_t fewest)
+{
+  const std::size_t n = particles.size();
+  std::vector<std::int32_t> count = count_contacts(n, pairs, walls);
+  const Neighbours neighbours(n, pairs);
+  std::vector<bool> is_rattler(n, false);
+  std::vector<std::int32_t> removed;
+  const auto remove_if_loose = [&](const std::int32_t i)
+  {
+    if (is_rattler[i] || particles.is_fixed(i) || count[i] >= fewest)
+      return;
+    is_rattler[i] = true;
+    removed.push_back(i);
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    remove_if_loose(static_cast<std::int32_t>(i));
+  while (!removed.empty())
+  {
+    const std::int32_t i = removed.back();
+    removed.pop_back();
+    for (std::int32_t k = neighbours.row[i]; k < neighbours.row[i + 1]; ++k)
+    {
+      --count[neighbours.other[k]];
+      remove_if_loose(neighbours.other[k]);
+    }
+  }
+  return is_rattler;
+}
+
+CoordinationNumbers coordination_numbers(const Particles &particles, const std::span<const TouchingContact> pairs,
+                                         const std::span<const TouchingContact> walls)
+{
+  const std::vector<bool> is_rattler = find_rattlers(particles, pairs, walls);
+  std::vector<TouchingContact> bearing;
+  for (const TouchingContact &contact : pairs)
+    if (!is_rattler[contact.first] && !is_rattler[contact.second])
+      bearing.push_back(contact);
+  const std::vector<std::int32_t> count = count_contacts(particles.size(), pairs, walls),
+                                  bearing_count = count_contacts(particles.size(), bearing, walls);
+  Mean all, mechanical, without_rattlers;
+  CoordinationNumbers numbers;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    if (particles.is_fixed(i))
+      continue;
+    all.add(count[i]);
+    if (count[i] >= 2)
+      mechanical.add(count[i]);
+    if (is_rattler[i])
+      ++numbers.n_rattlers;
+    else
+      without_rattlers.add(bearing_count[i]);
+  }
+  numbers.mean = all.value();
+  numbers.mechanical = mechanical.value();
+  numbers.without_rattlers = without_rattlers.value();
+  return numbers;
+}
+
+} // namespace bergamo::dem
