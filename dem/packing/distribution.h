@@ -32,7 +32,9 @@ Superquadric draw_grain(const GrainDistribution &distribution, std::mt19937_64 &
 std::vector<Superquadric> draw_grains(const GrainDistribution &distribution, double solid_volume,
                                       std::mt19937_64 &generator);
 
-/// Uniform random rotation (Shoemake 1992).
+/// Uniform random rotation from three numbers uniform in [0, 1) (Shoemake 1992).
+Quaternion uniform_rotation(double u, double v, double w);
+
 Quaternion draw_orientation(std::mt19937_64 &generator);
 
 } // namespace bergamo::dem
