@@ -1,6 +1,6 @@
 #include "benchmarks/hourglass.h"
 
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 
 #include <algorithm>

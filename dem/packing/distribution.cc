@@ -40,23 +40,6 @@ Superquadric draw_grain(const GrainDistribution &distribution, std::mt19937_64 &
   return grain;
 }
 
-std::vector<Superquadric> draw_grains(const GrainDistribution &distribution, const double solid_volume,
-                                      std::mt19937_64 &generator)
-{
-  distribution.validate();
-  std::vector<Superquadric> grains;
-  double sum = 0.;
-  while (true)
-  {
-    const Superquadric grain = draw_grain(distribution, generator);
-    const double v = volume(grain);
-    if (sum + 0.5 * v > solid_volume && !grains.empty())
-      return grains;
-    sum += v;
-    grains.push_back(grain);
-  }
-}
-
 Quaternion uniform_rotation(const double u, const double v, const double w)
 {
   const double a = 2. * std::numbers::pi * v, b = 2. * std::numbers::pi * w;

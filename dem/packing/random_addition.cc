@@ -34,6 +34,7 @@ public:
         inscribed(each(grains, inscribed_radius)), grid(space, range()), trial_grid(space, range())
   {
     space.require_range(range());
+    require_room();
     result.places.position.resize(grains.size());
     result.places.orientation.resize(grains.size());
     remaining.resize(grains.size());
@@ -76,6 +77,19 @@ private:
   }
 
   double range() const { return radius.empty() ? 1. : 2. * *std::max_element(radius.begin(), radius.end()); }
+
+  /// A grain is at least as wide as its inscribed sphere in every direction.
+  void require_room() const
+  {
+    const double edge = space.bounds().edges().minCoeff();
+    const double widest = inscribed.empty() ? 0. : 2. * *std::max_element(inscribed.begin(), inscribed.end());
+    if (widest < edge || space.is_periodic())
+      return;
+    std::ostringstream message;
+    message << "shortest edge of the packing's space is " << edge << " m: it must be larger than the narrowest side of "
+            << "every grain, up to " << widest << " m; choose a larger space or smaller grains";
+    throw ConfigError(message.str());
+  }
 
   void place_round()
   {

@@ -16,6 +16,8 @@ namespace bergamo::dem
 namespace
 {
 
+constexpr double margin_share = 0.4; // of the mean bounding radius: pairs that are further apart are not listed
+
 Superquadric scaled(const Superquadric &shape, const double size)
 {
   return {size * shape.half_axes, shape.eps1, shape.eps2};
@@ -25,13 +27,13 @@ Superquadric scaled(const Superquadric &shape, const double size)
 class Tightener
 {
 public:
-  Tightener(const std::span<const Superquadric> grains, const PackingSpace &space, const GrainPlaces &start,
+  Tightener(const std::span<const Superquadric> grains, const PackingSpace &space, const LoosePacking &start,
             const TighteningParameters &parameters, const std::uint64_t seed)
       : grains(grains), space(space), p(parameters), seed(seed)
   {
     const std::size_t n = grains.size();
-    result.places = start;
-    result.size.assign(n, p.start_size);
+    result.places = start.places;
+    result.size.assign(n, start.size);
     radius.resize(n);
     volumes.resize(n);
     poses.resize(n, make_pose(Superquadric(), Vec3::Zero(), Quaternion::Identity()));
@@ -47,14 +49,14 @@ public:
                  });
     largest = *std::max_element(radius.begin(), radius.end());
     mean_radius = std::accumulate(radius.begin(), radius.end(), 0.) / n;
-    list_margin = 0.4 * mean_radius;
-    space.require_range(2. * largest + list_margin);
+    list_margin = margin_share * mean_radius;
+    space.require_range(tightening_range(largest));
     measure();
   }
 
   Tightening run()
   {
-    while (now.smallest_size < 1. && static_cast<int>(result.steps.size()) < p.max_iterations)
+    while (now.smallest_size < 1. && static_cast<int>(result.steps.size()) < p.max_iterations && !is_stuck())
     {
       advance();
       measure();
@@ -64,6 +66,12 @@ public:
   }
 
 private:
+  bool is_stuck() const
+  {
+    const auto &steps = result.steps;
+    return steps.size() > patience && now.mean_size - steps[steps.size() - patience].mean_size < least_growth;
+  }
+
   void renew_pose(const std::size_t i)
   {
     poses[i] = make_pose(scaled(grains[i], result.size[i]), result.places.position[i], result.places.orientation[i]);
@@ -245,7 +253,9 @@ private:
     result.size[i] = std::max(size, result.size[i]);
   }
 
-  static constexpr double motion_share = 0.1; // of the mean bounding radius
+  static constexpr std::size_t patience = 200; // iterations
+  static constexpr double least_growth = 1e-4; // of the mean size in so many
+  static constexpr double motion_share = 0.1;
 
   std::span<const Superquadric> grains;
   const PackingSpace &space;
@@ -266,17 +276,20 @@ private:
 
 } // namespace
 
+double tightening_range(const double largest_radius)
+{
+  return (2. + margin_share) * largest_radius;
+}
+
 void TighteningParameters::validate() const
 {
-  require(start_size > 0. && start_size <= 1., "size of the grains at the start of the tightening", start_size,
-          "in (0, 1] of the full size");
-  require(size_step > 0. && size_step <= 0.1, "size step of the tightening", size_step, "in (0, 0.1]");
+  require(size_step >= 1e-4 && size_step <= 0.1, "size step of the tightening", size_step, "in [0.0001, 0.1]");
   require(translation_probability >= 0. && translation_probability <= 1., "probability of a translation",
           translation_probability, "in [0, 1]");
   require(max_iterations > 0, "largest number of iterations of the tightening", max_iterations, "positive");
 }
 
-Tightening tighten(const std::span<const Superquadric> grains, const PackingSpace &space, const GrainPlaces &start,
+Tightening tighten(const std::span<const Superquadric> grains, const PackingSpace &space, const LoosePacking &start,
                    const TighteningParameters &parameters, const std::uint64_t seed)
 {
   parameters.validate();

@@ -12,14 +12,24 @@ namespace bergamo::dem
 /// How a packing is tightened.
 struct TighteningParameters
 {
-  double start_size = 0.75;             ///< of the grains at the start, over their full size
-  double size_step = 0.01;              ///< growth at most beyond the mean size, in one iteration
+  double size_step = 0.0015;            ///< growth at most beyond the mean size, in one iteration
   double translation_probability = 0.5; ///< otherwise a grain turns
   int max_iterations = 2000;
 
   /// Throws ConfigError for a value out of its range.
   void validate() const;
 };
+
+/// Grains at a common share of their full size.
+struct LoosePacking
+{
+  GrainPlaces places;
+  double size = 1.; ///< over the full size
+};
+
+/// Distance of centres up to which the tightening looks for neighbours, for the largest bounding radius [m]: a periodic
+/// box must be larger than twice as much.
+double tightening_range(double largest_radius);
 
 /// One iteration of the tightening, at its end.
 struct TighteningStep
@@ -31,7 +41,7 @@ struct TighteningStep
 struct Tightening
 {
   GrainPlaces places;
-  std::vector<double> size; ///< over the full size, 1 unless the iterations were used up
+  std::vector<double> size; ///< over the full size: 1 unless the tightening ended early
   std::vector<TighteningStep> steps;
 };
 
@@ -41,8 +51,13 @@ struct Tightening
 /// Each gap between two grains is parted by a plane in its middle. A grain that stays on its side of its planes meets
 /// no other one, whatever those do, so all grains move at once: the result depends neither on an order nor on the
 /// number of threads. Every gap is searched once for both grains, in packs.
-/// @param grains at full size; @param start where they lie, free of contacts, at start_size of it
-Tightening tighten(std::span<const Superquadric> grains, const PackingSpace &space, const GrainPlaces &start,
+///
+/// No grain grows beyond the mean size by more than the size step, so all grow together, and at the end all are full
+/// size exactly. Growing slowly is quicker: grains that ran ahead would lock others in (0.0015: 167 iterations to 0.55,
+/// 0.003: 389). Ends at the full size, after the largest number of iterations, or when the grains no longer grow.
+/// @param grains at full size; @param start free of contacts
+/// @throws ConfigError for a periodic box of at most two tightening ranges
+Tightening tighten(std::span<const Superquadric> grains, const PackingSpace &space, const LoosePacking &start,
                    const TighteningParameters &parameters, std::uint64_t seed);
 
 } // namespace bergamo::dem

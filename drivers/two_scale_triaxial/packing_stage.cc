@@ -1,5 +1,6 @@
 #include "drivers/two_scale_triaxial/packing_stage.h"
 
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 
 #include <algorithm>

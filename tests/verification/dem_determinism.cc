@@ -1,6 +1,6 @@
 #include "dem/io/snapshot.h"
 #include "dem/packing/compression.h"
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "dem/simulation.h"
 

@@ -1,7 +1,7 @@
 #include "dem/contact/common_normal.h"
 #include "dem/core/error.h"
 #include "dem/packing/compression.h"
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "dem/simulation.h"
 
