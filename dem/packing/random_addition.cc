@@ -48,9 +48,11 @@ public:
     std::int64_t n_trials = 0, n_placed = 0;
     while (!remaining.empty())
     {
-      AdditionRound round{static_cast<std::int32_t>(remaining.size()), 0};
-      place_round();
-      round.n_placed = round.n_tried - static_cast<std::int32_t>(remaining.size());
+      const std::size_t before = remaining.size(),
+                        n_tried = std::min(before, std::max(least_tried, grains.size() / 20));
+      place_round(n_tried);
+      const AdditionRound round{static_cast<std::int32_t>(n_tried),
+                                static_cast<std::int32_t>(before - remaining.size())};
       result.rounds.push_back(round);
       n_trials += round.n_tried;
       n_placed += round.n_placed;
@@ -61,6 +63,7 @@ public:
   }
 
 private:
+  static constexpr std::size_t least_tried = 50;                                // in a round
   static constexpr std::int64_t first_trials = 100000, trials_per_grain = 1000; // before the addition gives up
 
   static std::vector<double> each(const std::span<const Superquadric> grains,
@@ -91,9 +94,9 @@ private:
     throw ConfigError(message.str());
   }
 
-  void place_round()
+  void place_round(const std::size_t n_tried)
   {
-    trials.assign(remaining.size(), {});
+    trials.assign(n_tried, {});
     parallel_for(trials.size(), [&](const std::size_t k) { trials[k] = draw(remaining[k]); });
     trial_grid.clear();
     for (std::size_t k = 0; k < trials.size(); ++k)
@@ -115,6 +118,7 @@ private:
       result.places.orientation[remaining[k]] = t.orientation;
       grid.add(remaining[k], t.position, radius[remaining[k]]);
     }
+    left.insert(left.end(), remaining.begin() + n_tried, remaining.end());
     remaining.swap(left);
   }
 

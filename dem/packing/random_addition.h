@@ -17,7 +17,7 @@ struct GrainPlaces
   std::vector<Quaternion> orientation;
 };
 
-/// One round of the random addition, in which every grain without a place is tried once.
+/// One round of the random addition, in which grains without a place are tried once each.
 struct AdditionRound
 {
   std::int32_t n_tried = 0, n_placed = 0;
@@ -32,10 +32,11 @@ struct RandomAddition
 /// Places grains at random places and orientations in a space so that none overlaps another or leaves the space
 /// (random sequential addition; Wellmann 3.4.4, algorithm 1). Works up to a solid fraction of about 0.3.
 ///
-/// In each round every grain without a place draws one, uniform over the whole space, from the seed, the round and its
-/// own number; all are held against the placed grains at once, those that fit there against each other, and the larger
-/// one takes the place. The same bits on any number of threads, and, unlike trials divided by regions, no place or
-/// direction that is preferred. @throws ConfigError naming the solid fraction reached if the grains find no place
+/// In each round the largest grains without a place, a twentieth of all, draw one each, uniform over the whole space,
+/// from the seed, the round and its own number; all are held against the placed grains at once, those that fit there
+/// against each other, and the larger one takes the place. The same bits on any number of threads, and, unlike trials
+/// divided by regions, no place or direction that is preferred. @throws ConfigError naming the solid fraction reached
+/// if the grains find no place
 RandomAddition place_at_random(std::span<const Superquadric> grains, const PackingSpace &space, std::uint64_t seed);
 
 /// The same as particles. @param density [kg/m^3]
