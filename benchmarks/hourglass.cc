@@ -1,6 +1,6 @@
 #include "benchmarks/hourglass.h"
 
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 
 #include <algorithm>
@@ -105,7 +105,7 @@ std::unique_ptr<dem::Simulation> flowing_hourglass(const HourglassRecipe &recipe
   const double r = shape.chamber_radius;
   const dem::Box box{Vec3(-r, -r, 0.), Vec3(r, r, shape.top())};
   const auto grains = dem::draw_grains(sand, solid_fraction * box.volume(), generator);
-  const dem::Particles all = dem::add_at_random(grains, box, 2650., generator);
+  const dem::Particles all = dem::add_at_random(grains, box, 2650., generator());
   dem::Particles particles;
   for (std::size_t i = 0; i < all.size(); ++i)
   {

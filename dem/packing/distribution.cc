@@ -40,30 +40,18 @@ Superquadric draw_grain(const GrainDistribution &distribution, std::mt19937_64 &
   return grain;
 }
 
-std::vector<Superquadric> draw_grains(const GrainDistribution &distribution, const double solid_volume,
-                                      std::mt19937_64 &generator)
+Quaternion uniform_rotation(const double u, const double v, const double w)
 {
-  distribution.validate();
-  std::vector<Superquadric> grains;
-  double sum = 0.;
-  while (true)
-  {
-    const Superquadric grain = draw_grain(distribution, generator);
-    const double v = volume(grain);
-    if (sum + 0.5 * v > solid_volume && !grains.empty())
-      return grains;
-    sum += v;
-    grains.push_back(grain);
-  }
+  const double a = 2. * std::numbers::pi * v, b = 2. * std::numbers::pi * w;
+  const double s = std::sqrt(1. - u), c = std::sqrt(u);
+  return Quaternion(c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b));
 }
 
 Quaternion draw_orientation(std::mt19937_64 &generator)
 {
   std::uniform_real_distribution<double> uniform(0., 1.);
-  const double u = uniform(generator), a = 2. * std::numbers::pi * uniform(generator),
-               b = 2. * std::numbers::pi * uniform(generator);
-  const double s = std::sqrt(1. - u), c = std::sqrt(u);
-  return Quaternion(c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b));
+  const double u = uniform(generator), v = uniform(generator), w = uniform(generator);
+  return uniform_rotation(u, v, w);
 }
 
 } // namespace bergamo::dem

@@ -28,11 +28,9 @@ struct GrainDistribution
 /// One random grain.
 Superquadric draw_grain(const GrainDistribution &distribution, std::mt19937_64 &generator);
 
-/// Grains until their volume reaches solid_volume [m^3] as nearly as whole grains can.
-std::vector<Superquadric> draw_grains(const GrainDistribution &distribution, double solid_volume,
-                                      std::mt19937_64 &generator);
+/// Uniform random rotation from three numbers uniform in [0, 1) (Shoemake 1992).
+Quaternion uniform_rotation(double u, double v, double w);
 
-/// Uniform random rotation (Shoemake 1992).
 Quaternion draw_orientation(std::mt19937_64 &generator);
 
 } // namespace bergamo::dem

@@ -1,12 +1,16 @@
 #include "dem/packing/random_addition.h"
 
-#include "dem/contact/common_normal.h"
 #include "dem/core/error.h"
+#include "dem/core/parallel.h"
 #include "dem/packing/distribution.h"
+#include "dem/packing/grain_grid.h"
+#include "dem/packing/overlap.h"
+#include "dem/packing/random_stream.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace bergamo::dem
@@ -14,111 +18,197 @@ namespace bergamo::dem
 namespace
 {
 
-/// Grains placed so far, by cells as wide as the largest grain.
-class PlacedGrains
+struct Trial
+{
+  Vec3 position;
+  Quaternion orientation;
+  bool fits = false;                ///< between the walls and the placed grains
+  std::vector<std::int32_t> rivals; ///< trials of larger grains that it would overlap
+};
+
+class Addition
 {
 public:
-  PlacedGrains(const Box &box, const double cell_size) : box(box)
+  Addition(const std::span<const Superquadric> grains, const PackingSpace &space, const std::uint64_t seed)
+      : grains(grains), space(space), seed(seed), radius(each(grains, bounding_radius)),
+        inscribed(each(grains, inscribed_radius)), grid(space, range()), trial_grid(space, range())
   {
-    for (int d = 0; d < 3; ++d)
-      n[d] = std::max(1, static_cast<int>(box.edges()[d] / cell_size));
-    cells.resize(static_cast<std::size_t>(n[0]) * n[1] * n[2]);
+    space.require_range(range());
+    require_room();
+    result.places.position.resize(grains.size());
+    result.places.orientation.resize(grains.size());
+    remaining.resize(grains.size());
+    std::iota(remaining.begin(), remaining.end(), 0);
+    std::stable_sort(remaining.begin(), remaining.end(),
+                     [&](const auto i, const auto j) { return radius[i] > radius[j]; });
   }
 
-  void add(const std::int32_t i, const Vec3 &x) { cells[index(cell(x))].push_back(i); }
-
-  template <class Predicate>
-  bool any_near(const Vec3 &x, Predicate &&predicate) const
+  RandomAddition run()
   {
-    const Eigen::Vector3i centre = cell(x);
-    for (int z = std::max(centre[2] - 1, 0); z <= std::min(centre[2] + 1, n[2] - 1); ++z)
-      for (int y = std::max(centre[1] - 1, 0); y <= std::min(centre[1] + 1, n[1] - 1); ++y)
-        for (int k = std::max(centre[0] - 1, 0); k <= std::min(centre[0] + 1, n[0] - 1); ++k)
-          for (const std::int32_t i : cells[index({k, y, z})])
-            if (predicate(i))
-              return true;
-    return false;
+    std::int64_t n_trials = 0, n_placed = 0;
+    while (!remaining.empty())
+    {
+      const std::size_t before = remaining.size(),
+                        n_tried = std::min(before, std::max(least_tried, grains.size() / 20));
+      place_round(n_tried);
+      const AdditionRound round{static_cast<std::int32_t>(n_tried),
+                                static_cast<std::int32_t>(before - remaining.size())};
+      result.rounds.push_back(round);
+      n_trials += round.n_tried;
+      n_placed += round.n_placed;
+      if (!remaining.empty() && n_trials > first_trials + trials_per_grain * n_placed)
+        give_up();
+    }
+    return std::move(result);
   }
 
 private:
-  Eigen::Vector3i cell(const Vec3 &x) const
+  static constexpr std::size_t least_tried = 50;                                // in a round
+  static constexpr std::int64_t first_trials = 100000, trials_per_grain = 1000; // before the addition gives up
+
+  static std::vector<double> each(const std::span<const Superquadric> grains,
+                                  double (*const measure)(const Superquadric &))
   {
-    Eigen::Vector3i c;
+    std::vector<double> values(grains.size());
+    parallel_for(grains.size(), [&](const std::size_t i) { values[i] = measure(grains[i]); });
+    return values;
+  }
+
+  PlacedGrain at(const std::int32_t i, const Vec3 &position, const Quaternion &orientation) const
+  {
+    return {grains[i], make_pose(grains[i], position, orientation), radius[i], inscribed[i]};
+  }
+
+  double range() const { return radius.empty() ? 1. : 2. * *std::max_element(radius.begin(), radius.end()); }
+
+  /// A grain is at least as wide as its inscribed sphere in every direction.
+  void require_room() const
+  {
+    const double edge = space.bounds().edges().minCoeff();
+    const double widest = inscribed.empty() ? 0. : 2. * *std::max_element(inscribed.begin(), inscribed.end());
+    if (widest < edge || space.is_periodic())
+      return;
+    std::ostringstream message;
+    message << "shortest edge of the packing's space is " << edge << " m: it must be larger than the narrowest side of "
+            << "every grain, up to " << widest << " m; choose a larger space or smaller grains";
+    throw ConfigError(message.str());
+  }
+
+  void place_round(const std::size_t n_tried)
+  {
+    trials.assign(n_tried, {});
+    parallel_for(trials.size(), [&](const std::size_t k) { trials[k] = draw(remaining[k]); });
+    trial_grid.clear();
+    for (std::size_t k = 0; k < trials.size(); ++k)
+      if (trials[k].fits)
+        trial_grid.add(static_cast<std::int32_t>(k), trials[k].position, radius[remaining[k]]);
+    parallel_for(trials.size(), [&](const std::size_t k) { find_rivals(static_cast<std::int32_t>(k)); });
+
+    std::vector<std::int32_t> left;
+    for (std::size_t k = 0; k < trials.size(); ++k)
+    {
+      Trial &t = trials[k];
+      t.fits = t.fits && std::none_of(t.rivals.begin(), t.rivals.end(), [&](const auto r) { return trials[r].fits; });
+      if (!t.fits)
+      {
+        left.push_back(remaining[k]);
+        continue;
+      }
+      result.places.position[remaining[k]] = t.position;
+      result.places.orientation[remaining[k]] = t.orientation;
+      grid.add(remaining[k], t.position, radius[remaining[k]]);
+    }
+    left.insert(left.end(), remaining.begin() + n_tried, remaining.end());
+    remaining.swap(left);
+  }
+
+  Trial draw(const std::int32_t i) const
+  {
+    RandomStream random(seed, result.rounds.size(), i);
+    Trial t;
     for (int d = 0; d < 3; ++d)
-      c[d] = std::clamp(static_cast<int>((x[d] - box.low[d]) / box.edges()[d] * n[d]), 0, n[d] - 1);
-    return c;
+      t.position[d] = random.uniform(space.bounds().low[d], space.bounds().high[d]);
+    const double u = random.uniform(), v = random.uniform(), w = random.uniform();
+    t.orientation = uniform_rotation(u, v, w);
+    // The spheres first: they decide most trials.
+    bool is_free = true;
+    std::vector<std::pair<std::int32_t, Vec3>> near;
+    grid.any_near(t.position, radius[i],
+                  [&](const std::int32_t j, const Vec3 &centre_line)
+                  {
+                    const double closest = inscribed[i] + inscribed[j];
+                    is_free = centre_line.squaredNorm() > closest * closest;
+                    near.emplace_back(j, centre_line);
+                    return !is_free;
+                  });
+    if (!is_free)
+      return t;
+    const PlacedGrain grain = at(i, t.position, t.orientation);
+    const auto is_apart = [&](const auto &other)
+    {
+      const auto &[j, centre_line] = other;
+      return are_apart(grain, at(j, result.places.position[j], result.places.orientation[j]), centre_line);
+    };
+    t.fits = space.contains(grain.pose, radius[i]) && std::all_of(near.begin(), near.end(), is_apart);
+    return t;
   }
 
-  std::size_t index(const Eigen::Vector3i &c) const
+  void find_rivals(const std::int32_t k)
   {
-    return (static_cast<std::size_t>(c[2]) * n[1] + c[1]) * n[0] + c[0];
+    Trial &t = trials[k];
+    if (!t.fits)
+      return;
+    const PlacedGrain grain = at(remaining[k], t.position, t.orientation);
+    trial_grid.any_near(
+        t.position, radius[remaining[k]],
+        [&](const std::int32_t r, const Vec3 &centre_line)
+        {
+          if (r < k && !are_apart(grain, at(remaining[r], trials[r].position, trials[r].orientation), centre_line))
+            t.rivals.push_back(r);
+          return false;
+        });
   }
 
-  Box box;
-  int n[3];
-  std::vector<std::vector<std::int32_t>> cells;
+  [[noreturn]] void give_up() const
+  {
+    double placed_volume = 0.;
+    for (const Superquadric &grain : grains)
+      placed_volume += volume(grain);
+    for (const std::int32_t i : remaining)
+      placed_volume -= volume(grains[i]);
+    std::ostringstream message;
+    message << "the packing does not fit: " << remaining.size() << " of " << grains.size()
+            << " grains found no place in the space of " << space.bounds().edges().transpose()
+            << " m, the solid fraction reached is " << placed_volume / space.volume()
+            << "; choose a larger space, smaller grains or a smaller initial solid fraction (0.22 works)";
+    throw ConfigError(message.str());
+  }
+
+  std::span<const Superquadric> grains;
+  const PackingSpace &space;
+  std::uint64_t seed;
+  std::vector<double> radius, inscribed; // [m]
+  GrainGrid grid, trial_grid;
+  std::vector<std::int32_t> remaining; // large ones first
+  std::vector<Trial> trials;           // of the remaining grains
+  RandomAddition result;
 };
-
-bool lies_inside(const BodyPose &pose, const Box &box)
-{
-  for (int d = 0; d < 3; ++d)
-  {
-    const Vec3 axis = Vec3::Unit(d);
-    if (pose.position[d] + support(pose, axis).height > box.high[d] ||
-        pose.position[d] - support(pose, -axis).height < box.low[d])
-      return false;
-  }
-  return true;
-}
 
 } // namespace
 
-Particles add_at_random(const std::span<const Superquadric> grains, const Box &box, const double density,
-                        std::mt19937_64 &generator)
+RandomAddition place_at_random(const std::span<const Superquadric> grains, const PackingSpace &space,
+                               const std::uint64_t seed)
 {
-  constexpr int max_trials = 100000;
-  double largest = 0., solid_volume = 0.;
-  for (const Superquadric &grain : grains)
-    largest = std::max(largest, bounding_radius(grain));
+  return Addition(grains, space, seed).run();
+}
 
+Particles add_at_random(const std::span<const Superquadric> grains, const PackingSpace &space, const double density,
+                        const std::uint64_t seed)
+{
+  const GrainPlaces places = place_at_random(grains, space, seed).places;
   Particles particles;
-  PlacedGrains placed(box, 2. * largest);
-  std::uniform_real_distribution<double> uniform(0., 1.);
-  for (const Superquadric &grain : grains)
-  {
-    const double radius = bounding_radius(grain);
-    bool is_placed = false;
-    for (int trial = 0; trial < max_trials && !is_placed; ++trial)
-    {
-      const Vec3 share(uniform(generator), uniform(generator), uniform(generator));
-      const Vec3 x = box.low + share.cwiseProduct(box.edges());
-      const Quaternion orientation = draw_orientation(generator);
-      const BodyPose pose = make_pose(grain, x, orientation);
-      const auto overlaps = [&](const std::int32_t i)
-      {
-        const double range = radius + particles.bounding_radius[i];
-        if ((particles.position[i] - x).squaredNorm() >= range * range)
-          return false;
-        const BodyPose other = make_pose(particles.shape[i], particles.position[i], particles.orientation[i]);
-        return find_contact(pose, other).status != ContactStatus::separated;
-      };
-      if (!lies_inside(pose, box) || placed.any_near(x, overlaps))
-        continue;
-      placed.add(static_cast<std::int32_t>(particles.size()), x);
-      particles.add(grain, density, x, orientation);
-      is_placed = true;
-    }
-    if (!is_placed)
-    {
-      std::ostringstream message;
-      message << "the packing does not fit: grain " << particles.size() + 1 << " of " << grains.size()
-              << " found no place in the box of " << box.edges().transpose() << " m, the solid fraction reached is "
-              << solid_volume / box.volume()
-              << "; choose a larger box, smaller grains or a smaller initial solid fraction (0.22 works)";
-      throw ConfigError(message.str());
-    }
-    solid_volume += volume(grain);
-  }
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    particles.add(grains[i], density, places.position[i], places.orientation[i]);
   return particles;
 }
 

@@ -1,27 +1,46 @@
 #pragma once
 
-#include "dem/core/types.h"
+#include "dem/packing/space.h"
 #include "dem/state/particles.h"
 
-#include <random>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace bergamo::dem
 {
 
-/// Axis-aligned box [m].
-struct Box
+/// Where grains lie: centres [m], and rotations from body to global.
+struct GrainPlaces
 {
-  Vec3 low = Vec3::Zero(), high = Vec3::Ones();
-
-  Vec3 edges() const { return high - low; }
-  double volume() const { return edges().prod(); }
+  std::vector<Vec3> position;
+  std::vector<Quaternion> orientation;
 };
 
-/// Places grains one by one at random places and orientations in a box so that none overlaps another or leaves the box
-/// (random sequential addition; Wellmann 3.4.4). Works up to a solid fraction of about 0.3.
-/// @param density [kg/m^3]; @throws ConfigError naming the solid fraction reached if a grain finds no place.
-Particles add_at_random(std::span<const Superquadric> grains, const Box &box, double density,
-                        std::mt19937_64 &generator);
+/// One round of the random addition, in which grains without a place are tried once each.
+struct AdditionRound
+{
+  std::int32_t n_tried = 0, n_placed = 0;
+};
+
+struct RandomAddition
+{
+  GrainPlaces places;
+  std::vector<AdditionRound> rounds;
+};
+
+/// Places grains at random places and orientations in a space so that none overlaps another or leaves the space
+/// (random sequential addition; Wellmann 3.4.4, algorithm 1). Works up to a solid fraction of about 0.3.
+///
+/// In each round the largest grains without a place, a twentieth of all, draw one each, uniform over the whole space,
+/// from the seed, the round and its own number; all are held against the placed grains at once, those that fit there
+/// against each other, and the larger one takes the place. The same bits on any number of threads, and, unlike trials
+/// divided by regions, no place or direction that is preferred. @throws ConfigError naming the solid fraction reached
+/// if the grains find no place
+RandomAddition place_at_random(std::span<const Superquadric> grains, const PackingSpace &space, std::uint64_t seed);
+
+/// The same as particles. @param density [kg/m^3]
+Particles add_at_random(std::span<const Superquadric> grains, const PackingSpace &space, double density,
+                        std::uint64_t seed);
 
 } // namespace bergamo::dem

@@ -1,5 +1,6 @@
 #include "drivers/two_scale_triaxial/packing_stage.h"
 
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ PackingStage begin_packing(const TriaxialParameters &parameters)
 
   const double widening = std::cbrt(parameters.expected_solid_fraction / parameters.initial_solid_fraction);
   const dem::Box box{dem::Vec3::Zero(), std::max(widening, 1.) * edges};
-  dem::Particles particles = dem::add_at_random(shapes, box, parameters.simulation.grain.density, generator);
+  dem::Particles particles = dem::add_at_random(shapes, box, parameters.simulation.grain.density, generator());
   return {std::make_unique<dem::Simulation>(parameters.packing_simulation(), std::move(particles), dem::box_walls(box)),
           dem::Compression(parameters.compression)};
 }

@@ -6,7 +6,7 @@
 #include "coupling/adapter/dealii_adapter.h"
 #include "coupling/adapter/two_scale_model.h"
 #include "dem/packing/compression.h"
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "fe_dealii/box_mesh.h"
 
@@ -33,7 +33,7 @@ TwoScaleModel make_model(const coupling::Projection projection, const double ini
   const dem::Box box{Vec3(0., 0., layer), Vec3(edge, edge, 3. * layer)};
   const auto grains = dem::draw_grains(dem::GrainDistribution(), 0.2 * box.volume(), generator);
   dem::SimulationParameters parameters;
-  auto simulation = std::make_unique<dem::Simulation>(parameters, dem::add_at_random(grains, box, 2650., generator),
+  auto simulation = std::make_unique<dem::Simulation>(parameters, dem::add_at_random(grains, box, 2650., generator()),
                                                       std::vector<dem::PlaneWall>());
 
   dealii::Triangulation<3> mesh;

@@ -1,6 +1,6 @@
 #include "dem/io/snapshot.h"
 #include "dem/packing/compression.h"
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "dem/simulation.h"
 
@@ -105,7 +105,7 @@ Simulation loose_packing(const SimulationParameters &p)
   std::mt19937_64 generator(1);
   const Box box{Vec3::Zero(), Vec3::Constant(box_edge)};
   const auto grains = draw_grains({}, 0.24 * box.volume(), generator);
-  return Simulation(p, add_at_random(grains, box, p.grain.density, generator), box_walls(box));
+  return Simulation(p, add_at_random(grains, box, p.grain.density, generator()), box_walls(box));
 }
 
 std::int32_t n_touching_walls(const Simulation &s)
@@ -131,7 +131,7 @@ struct Pouring
     auto shapes = draw_grains({}, 0.24 * box.volume(), generator);
     for (std::size_t i = 0; i < shapes.size(); i += 2)
       shapes[i] = {Vec3::Constant(equivalent_radius(shapes[i])), 1., 1.};
-    grains = add_at_random(shapes, box, parameters.grain.density, generator);
+    grains = add_at_random(shapes, box, parameters.grain.density, generator());
   }
 
   Simulation begin() const { return Simulation(parameters, grains, box_walls(box)); }

@@ -1,5 +1,5 @@
 #include "dem/packing/compression.h"
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "dem/simulation.h"
 
@@ -39,7 +39,7 @@ Simulation dense_packing()
     shapes[i] = {Vec3::Constant(equivalent_radius(shapes[i])), 1., 1.};
   SimulationParameters p = parameters();
   p.contact.overlap_tolerance = 1e-4;
-  Simulation s(p, add_at_random(shapes, box, p.grain.density, generator), box_walls(box));
+  Simulation s(p, add_at_random(shapes, box, p.grain.density, generator()), box_walls(box));
   CompressionParameters c;
   c.largest_rate = 100.;
   c.longest_time = 10.;

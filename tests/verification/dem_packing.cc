@@ -1,7 +1,7 @@
 #include "dem/contact/common_normal.h"
 #include "dem/core/error.h"
 #include "dem/packing/compression.h"
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "dem/simulation.h"
 
@@ -149,7 +149,7 @@ TEST_CASE("randomly added grains neither overlap nor leave the box")
   {
     std::mt19937_64 generator(seed);
     const auto grains = draw_grains({}, 0.22 * box.volume(), generator);
-    return add_at_random(grains, box, 2650., generator);
+    return add_at_random(grains, box, 2650., generator());
   };
   const Particles p = make(5);
   REQUIRE(p.size() > 100);
@@ -195,8 +195,8 @@ TEST_CASE("too dense an addition is refused with the solid fraction that was rea
   // [0.4, 0.6]^3 no two are 0.8 apart, so exactly one fits and the fraction reached is 4/3 pi 0.4^3 = 0.268083.
   const std::vector<Superquadric> grains(4, {Vec3::Constant(0.4), 1., 1.});
   std::mt19937_64 generator(1);
-  CHECK_THROWS_AS(add_at_random(grains, {Vec3::Zero(), Vec3::Ones()}, 1000., generator), ConfigError);
-  CHECK_THROWS_WITH(add_at_random(grains, {Vec3::Zero(), Vec3::Ones()}, 1000., generator),
+  CHECK_THROWS_AS(add_at_random(grains, Box{Vec3::Zero(), Vec3::Ones()}, 1000., generator()), ConfigError);
+  CHECK_THROWS_WITH(add_at_random(grains, Box{Vec3::Zero(), Vec3::Ones()}, 1000., generator()),
                     Catch::Contains("grain 2 of 4") && Catch::Contains("0.26808") && Catch::Contains("larger box"));
 }
 
@@ -216,7 +216,7 @@ TEST_CASE("a packing compressed to 1 kPa rests there")
   std::mt19937_64 generator(7);
   const Box box{Vec3::Zero(), Vec3::Constant(6.4e-3)};
   const auto grains = draw_grains({}, 0.24 * box.volume(), generator);
-  Simulation simulation(parameters, add_at_random(grains, box, 2650., generator), box_walls(box));
+  Simulation simulation(parameters, add_at_random(grains, box, 2650., generator()), box_walls(box));
   REQUIRE(simulation.particles.size() > 180);
   Compression compression(aim);
   std::int64_t n = 0;
