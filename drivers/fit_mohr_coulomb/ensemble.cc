@@ -74,13 +74,13 @@ std::string pressure_warning(const Sample &sample)
          " Pa, not the confining " + short_text(sample.confining_pressure) + " Pa";
 }
 
-void check_row(const Sample &sample, const std::string &place)
+/// The number of a sample and its pressure, checked.
+void check_row(const double number, const double pressure, const std::string &place)
 {
-  if (!(sample.number >= 0))
-    throw ConfigError(place + ": sample is " + std::to_string(sample.number) + "; it must be a whole number >= 0");
-  if (!(sample.confining_pressure > 0))
-    throw ConfigError(place + ": confining_pressure_Pa is " + short_text(sample.confining_pressure) +
-                      "; it must be positive");
+  if (!(number >= 0 && number <= 1e9 && number == std::floor(number)))
+    throw ConfigError(place + ": sample is " + short_text(number) + "; it must be a whole number >= 0");
+  if (!(pressure > 0))
+    throw ConfigError(place + ": confining_pressure_Pa is " + short_text(pressure) + "; it must be positive");
 }
 
 /// What is mixed in the ensemble although one continuum cannot stand for it.
@@ -117,9 +117,9 @@ Ensemble read_ensemble(const std::filesystem::path &folder, const SampleChoice &
   for (std::size_t i = 0; i < table.n_rows; ++i)
   {
     const std::string place = "'" + list.string() + "' row " + std::to_string(i + 1);
+    check_row(table["sample"][i], table["confining_pressure_Pa"][i], place);
     Sample sample{static_cast<int>(table["sample"][i]), table["edge_m"][i],      table["generation_friction"][i],
                   table["confining_pressure_Pa"][i],    table["n_particles"][i], {}};
-    check_row(sample, place);
     if (!numbers.insert(sample.number).second)
       throw ConfigError(place + ": sample " + std::to_string(sample.number) + " stands there twice; remove one");
     if (table["finished"][i] != 1)
