@@ -65,7 +65,7 @@ CsvTable read_csv(const std::filesystem::path &path, const std::vector<std::stri
     if (trimmed(line).empty())
       continue;
     const std::vector<std::string> fields = fields_of(line);
-    const std::string place = "'" + path.string() + "' line " + std::to_string(number);
+    const std::string place = std::string("'") + path.string() + "' line " + std::to_string(number);
     if (fields.size() != header.size())
       throw ConfigError(place + " has " + std::to_string(fields.size()) + " values, not " +
                         std::to_string(header.size()) + " as the header; mend or remove the line");

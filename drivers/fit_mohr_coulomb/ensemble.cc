@@ -116,7 +116,7 @@ Ensemble read_ensemble(const std::filesystem::path &folder, const SampleChoice &
   std::size_t n_unfinished = 0, n_other = 0;
   for (std::size_t i = 0; i < table.n_rows; ++i)
   {
-    const std::string place = "'" + list.string() + "' row " + std::to_string(i + 1);
+    const std::string place = std::string("'") + list.string() + "' row " + std::to_string(i + 1);
     check_row(table["sample"][i], table["confining_pressure_Pa"][i], place);
     Sample sample{static_cast<int>(table["sample"][i]), table["edge_m"][i],      table["generation_friction"][i],
                   table["confining_pressure_Pa"][i],    table["n_particles"][i], {}};

@@ -17,6 +17,7 @@ using dem::ConfigError;
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr std::size_t least_rows = 3;
 constexpr double least_span = 0.8; // of a window
+constexpr double rounding = 1e-9;  // of a window: a row meant to lie on its rim does
 
 /// What lies within a window of compression.
 struct WindowRows
@@ -27,9 +28,8 @@ struct WindowRows
 WindowRows rows_between(const TriaxialCurve &curve, const double from, const double to)
 {
   WindowRows rows;
-  const double rounding = 1e-9 * to; // a row meant to lie on the rim does
   for (std::size_t i = 0; i < curve.size(); ++i)
-    if (curve.compression(i) >= from - rounding && curve.compression(i) <= to + rounding)
+    if (curve.compression(i) >= from - rounding * to && curve.compression(i) <= to + rounding * to)
     {
       rows.axial_strain.push_back(curve.axial_strain[i]);
       rows.volumetric_strain.push_back(curve.volumetric_strain[i]);
@@ -72,7 +72,7 @@ void find_peak(const TriaxialCurve &curve, const double width, SampleFit &fit)
   for (std::size_t row = 0; row < curve.size(); ++row)
   {
     const auto is_near = [&](const std::size_t other)
-    { return std::abs(curve.compression(other) - curve.compression(row)) <= 0.5 * width; };
+    { return std::abs(curve.compression(other) - curve.compression(row)) <= 0.5 * width * (1 + rounding); };
     std::size_t begin = row, end = row + 1;
     while (begin > 0 && is_near(begin - 1))
       --begin;
@@ -94,7 +94,7 @@ void find_final_state(const TriaxialCurve &curve, const double width, SampleFit 
 {
   const std::size_t end = curve.size();
   std::size_t begin = end - 1;
-  while (begin > 0 && curve.compression(end - 1) - curve.compression(begin - 1) <= width)
+  while (begin > 0 && curve.compression(end - 1) - curve.compression(begin - 1) <= width * (1 + rounding))
     --begin;
   fit.final_stress_ratio = mean_over(curve.axial_stress, begin, end) / mean_over(curve.lateral_stress, begin, end);
   fit.critical_solid_fraction = mean_over(curve.solid_fraction, begin, end);

@@ -74,8 +74,13 @@ std::string row_of(const std::initializer_list<double> values)
 {
   std::string row;
   for (const double value : values)
-    row += (row.empty() ? "" : ",") + exact_text(value);
-  return row + "\n";
+  {
+    if (!row.empty())
+      row += ',';
+    row += exact_text(value);
+  }
+  row += '\n';
+  return row;
 }
 
 /// The samples' curves under one pressure.
