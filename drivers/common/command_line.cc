@@ -20,7 +20,7 @@ void add_options(CLI::App &app, CommandLine &command_line)
 {
   app.add_option("file.prm", command_line.parameter_files,
                  "Parameter file; where several are given, later ones win over earlier ones")
-      ->type_name("...");
+      ->type_name("");
   app.add_option("--set", command_line.settings, "Overrides one parameter of the files; may be given many times")
       ->type_name("\"Section/Name=value\"")
       ->expected(1)

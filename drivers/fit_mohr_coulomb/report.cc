@@ -33,7 +33,7 @@ Json json_of(const FitStatistics &figures)
           {"dilation_angle_deg", json_of(figures.dilation_angle)},
           {"dilation_rate", json_of(figures.dilation_rate)},
           {"peak_stress_ratio", json_of(figures.peak_stress_ratio)},
-          {"peak_axial_strain", json_of(figures.peak_compression)},
+          {"peak_axial_compression", json_of(figures.peak_compression)},
           {"peak_axial_pressure_Pa", json_of(figures.peak_axial_pressure)},
           {"peak_lateral_pressure_Pa", json_of(figures.peak_lateral_pressure)},
           {"final_stress_ratio", json_of(figures.final_stress_ratio)},
@@ -54,7 +54,7 @@ Json json_of(const Sample &sample, const SampleFit &fit, const double cohesion)
           {"dilation_angle_deg", fit.dilation_angle},
           {"dilation_rate", fit.dilation_rate},
           {"peak_stress_ratio", fit.peak_stress_ratio()},
-          {"peak_axial_strain", fit.peak_compression},
+          {"peak_axial_compression", fit.peak_compression},
           {"final_stress_ratio", fit.final_stress_ratio},
           {"initial_solid_fraction", fit.initial_solid_fraction},
           {"critical_solid_fraction", fit.critical_solid_fraction}};

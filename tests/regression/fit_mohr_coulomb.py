@@ -188,7 +188,7 @@ class Results(Case):
         for name, value in expected.items():
             self.assertAlmostEqual(values[name], value, delta=1e-7 * value, msg=name)
         self.assertEqual(values["Young's modulus"], fit["continuum"]["young_modulus_Pa"])  # to the last bit
-        self.assertIn("set edge                = 0.005", used)  # from the first file
+        self.assertRegex(used, r"set edge += 0\.005\b")  # from the first file
 
     def test_pictures(self):
         self.write(self.scattered())

@@ -35,20 +35,20 @@ def draw_elastic(axes, fit, groups):
     for i, (pressure, rows) in enumerate(groups):
         compression = -rows["axial_strain"]
         near = compression <= reach
-        axes.plot(100 * compression[near], -rows["axial_stress_Pa"][near] / 1e3, color=colour_of(i),
-                  label=f"{pressure / 1e3:g} kPa")
+        axes.plot(100 * compression[near], -rows["axial_stress_Pa"][near] / 1e3, color=colour_of(i))
         end = min(reach, fit["peak_stress_ratio"]["mean"] * pressure / young)
         axes.plot([0, 100 * end], [pressure / 1e3, (pressure + young * end) / 1e3], **LINE,
                   label=f"E = {young / 1e6:.1f} MPa" if i == len(groups) - 1 else None)
     axes.axvspan(0, 100 * fit["windows"]["elastic_axial_strain"], color="#EEEEEE", zorder=0)
     axes.set_ylabel(r"axial stress $-\sigma_3$ in kPa")
     axes.set_title("a) Young's modulus", loc="left")
-    axes.legend()
+    axes.set_ylim(top=axes.get_ylim()[1] + 0.12 * np.diff(axes.get_ylim())[0])  # room for the legend
+    axes.legend(loc="upper left")
     return reach
 
 
 def draw_poisson(axes, fit, groups, reach):
-    for i, (pressure, rows) in enumerate(groups):
+    for i, (_, rows) in enumerate(groups):
         compression = -rows["axial_strain"]
         near = compression <= reach
         axes.plot(100 * compression[near], 100 * rows["volumetric_strain"][near], color=colour_of(i))
@@ -72,7 +72,7 @@ def draw_circles(axes, fit):
     normal = np.array([0, 0.85 * furthest])
     axes.plot(normal / 1e3, (fit["cohesion_Pa"] + normal * np.tan(np.radians(friction))) / 1e3, **LINE,
               label=f"φ = {friction:.2f}°, c = {fit['cohesion_Pa']:.3g} Pa")
-    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_aspect("equal", adjustable="box")
     axes.set_xlabel(r"normal stress $-\sigma$ in kPa")
     axes.set_ylabel(r"shear stress $\tau$ in kPa")
     axes.set_title("c) friction angle: circles at the peak", loc="left")
@@ -85,7 +85,7 @@ def draw_dilation(axes, fit, groups):
     heights = []
     for i, (pressure, rows) in enumerate(groups):
         compression = -rows["axial_strain"]
-        axes.plot(100 * compression, 100 * rows["volumetric_strain"], color=colour_of(i))
+        axes.plot(100 * compression, 100 * rows["volumetric_strain"], color=colour_of(i), label=f"{pressure / 1e3:g} kPa")
         heights.append(np.interp(middle, compression, rows["volumetric_strain"]))
     rate = fit["dilation_rate"]["mean"]
     reach = np.array([begin - (end - begin), end + (end - begin)])
