@@ -68,6 +68,22 @@ TEST_CASE("an ensemble has the means and deviations of its samples, all together
   CHECK_NOTHROW(fit.continuum.validate());
 }
 
+TEST_CASE("a curve that bends shows in the moduli of half and twice the window")
+{
+  std::vector<Sample> samples{synthetic::sample(1, 100e3, synthetic::curve(100e3))};
+  TriaxialCurve &curve = samples[0].curve;
+  for (std::size_t i = 0; i < 42; ++i) // to 0.03 %, a parabola whose slope is 80 MPa (1 − 1000 ε)
+    curve.axial_stress[i] = -100e3 - 80e6 * curve.compression(i) * (1 - 500 * curve.compression(i));
+  FitParameters parameters;
+  parameters.windows.elastic_strain = 1e-4;
+  const EnsembleFit fit = fit_ensemble(samples, parameters);
+  REQUIRE(fit.windows.size() == 3);
+  CHECK(fit.windows[0].young_modulus.mean == Approx(80e6 * 0.975).epsilon(1e-9)); // the slope in the window's middle
+  CHECK(fit.windows[1].young_modulus.mean == Approx(80e6 * 0.95).epsilon(1e-9));
+  CHECK(fit.windows[2].young_modulus.mean == Approx(80e6 * 0.90).epsilon(1e-9));
+  CHECK(fit.all.young_modulus.mean == fit.windows[1].young_modulus.mean);
+}
+
 TEST_CASE("chosen pressures alone give Young's modulus")
 {
   FitParameters parameters;
@@ -147,20 +163,23 @@ TEST_CASE("mean curves are exact between rows of straight curves, and end with t
     return curve;
   };
   TriaxialCurve first = line(0.2, 7, 1), second = line(0.1, 11, 3);
-  second.axial_strain.insert(second.axial_strain.begin() + 5, -0.01); // a step back, which is left out
+  second.axial_strain.insert(second.axial_strain.begin() + 7, -0.02); // a step back, which is left out
   for (auto *column : {&second.volumetric_strain, &second.axial_stress, &second.lateral_stress, &second.solid_fraction})
-    column->insert(column->begin() + 5, 1e9);
-  const std::vector<const TriaxialCurve *> curves{&first, &second};
-  const auto points = mean_curve(curves, 5);
-  REQUIRE(points.size() == 5);
-  for (int i = 0; i < 5; ++i)
+    column->insert(column->begin() + 7, 1e9);
+  using Curves = std::vector<const TriaxialCurve *>;
+  for (const Curves &curves : {Curves{&first, &second}, Curves{&second, &first}})
   {
-    const double e = 0.1 * i * i / 16.;
-    CHECK(points[i].axial_strain == Approx(-e));
-    CHECK(points[i].volumetric_strain.mean == Approx(2 * e).margin(1e-15));
-    CHECK(points[i].volumetric_strain.deviation == Approx(std::sqrt(2.) * e).margin(1e-15));
-    CHECK(points[i].stress_ratio.mean == Approx(1 + 2 * e));
-    CHECK(points[i].axial_stress.mean == Approx(-1e5 * (1 + 2 * e)));
-    CHECK(points[i].solid_fraction.mean == Approx(0.6));
+    const auto points = mean_curve(curves, 5);
+    REQUIRE(points.size() == 5);
+    for (int i = 0; i < 5; ++i)
+    {
+      const double e = 0.1 * i * i / 16.;
+      CHECK(points[i].axial_strain == Approx(-e));
+      CHECK(points[i].volumetric_strain.mean == Approx(2 * e).margin(1e-15));
+      CHECK(points[i].volumetric_strain.deviation == Approx(std::sqrt(2.) * e).margin(1e-15));
+      CHECK(points[i].stress_ratio.mean == Approx(1 + 2 * e));
+      CHECK(points[i].axial_stress.mean == Approx(-1e5 * (1 + 2 * e)));
+      CHECK(points[i].solid_fraction.mean == Approx(0.6));
+    }
   }
 }
