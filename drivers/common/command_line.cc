@@ -18,15 +18,18 @@ using dem::ConfigError;
 
 void add_options(CLI::App &app, CommandLine &command_line)
 {
-  app.add_option("file.prm", command_line.parameter_file, "Parameter file")->type_name("");
-  app.add_option("--set", command_line.settings, "Overrides one parameter of the file; may be given many times")
+  app.add_option("file.prm", command_line.parameter_files,
+                 "Parameter file; where several are given, later ones win over earlier ones")
+      ->type_name("");
+  app.add_option("--set", command_line.settings, "Overrides one parameter of the files; may be given many times")
       ->type_name("\"Section/Name=value\"")
       ->expected(1)
       ->take_all()
       ->allow_extra_args(false);
   app.add_option("--threads", command_line.threads, "Number of threads (default: one a core, or OMP_NUM_THREADS)")
       ->type_name("N");
-  app.add_option("--output", command_line.output, "Folder of the run (default: results/<name of the parameter file>)")
+  app.add_option("--output", command_line.output,
+                 "Folder of the run (default: results/<name of the first parameter file>)")
       ->type_name("DIR");
   app.add_flag("--force", command_line.force,
                "Take over a folder that holds an earlier run; that run's files move to DIR/previous_run");
@@ -45,7 +48,7 @@ std::string footer(const std::string &name)
          name +
          " --print-parameters > my.prm\n"
          "  " +
-         name + " " + name +
+         name + " " + name + ".prm continuum.prm\n  " + name + " " + name +
          ".prm --set \"Run/seed=2\" --output results/second --threads 2\n\n"
          "Ctrl-C ends the step, writes a snapshot and says how to go on; a second Ctrl-C ends the program at once.\n"
          "Exit status: 0 done, 1 the run failed, 2 a mistake on the command line or in the parameters,\n"
@@ -72,23 +75,30 @@ void check_threads(const CommandLine &command_line)
                       " cores)");
 }
 
-void check_file(const CommandLine &command_line, const std::string &driver)
+void check_file(const std::filesystem::path &file, const std::string &driver)
 {
   namespace fs = std::filesystem;
-  const fs::path &file = command_line.parameter_file;
-  if (file.empty())
-  {
-    if (command_line.print_parameters)
-      return;
-    throw ConfigError("no parameter file given; use '" + driver + " file.prm', and '" + driver +
-                      " --print-parameters' to write one");
-  }
   std::error_code ignored;
   if (!fs::exists(file, ignored))
     throw ConfigError("parameter file '" + file.string() + "' does not exist; check the path, or write one with '" +
                       driver + " --print-parameters'");
   if (fs::is_directory(file, ignored))
     throw ConfigError("parameter file '" + file.string() + "' is a folder; name a file in it");
+}
+
+void check_files(const CommandLine &command_line, const std::string &driver)
+{
+  namespace fs = std::filesystem;
+  const std::vector<fs::path> &files = command_line.parameter_files;
+  if (files.empty() && !command_line.print_parameters)
+    throw ConfigError("no parameter file given; use '" + driver + " file.prm', and '" + driver +
+                      " --print-parameters' to write one");
+  for (const fs::path &file : files)
+    check_file(file, driver);
+  for (std::size_t i = 0; i < files.size(); ++i) // a slip of the hand: it would change nothing, or undo a file between
+    for (std::size_t j = 0; j < i; ++j)
+      if (fs::equivalent(files[i], files[j]))
+        throw ConfigError("parameter file '" + files[i].string() + "' is given twice; remove one of the two");
 }
 
 void check(CommandLine &command_line, const std::string &driver)
@@ -100,11 +110,11 @@ void check(CommandLine &command_line, const std::string &driver)
   for (const std::string &setting : command_line.settings)
     if (setting.find('=') == std::string::npos)
       throw ConfigError("--set \"" + setting + "\" has no '='; write --set \"Section/Name=value\"");
-  check_file(command_line, driver);
+  check_files(command_line, driver);
   if (command_line.output.empty())
-    command_line.output =
-        std::filesystem::path("results") /
-        (command_line.parameter_file.empty() ? std::filesystem::path(driver) : command_line.parameter_file.stem());
+    command_line.output = std::filesystem::path("results") / (command_line.parameter_files.empty()
+                                                                  ? std::filesystem::path(driver)
+                                                                  : command_line.parameter_files.front().stem());
 }
 
 } // namespace

@@ -11,15 +11,16 @@ namespace bergamo::driver
 /// What the user asked for on the command line of a driver.
 struct CommandLine
 {
-  std::filesystem::path parameter_file; ///< empty only with print_parameters
-  std::vector<std::string> settings;    ///< texts "Section/Name=value" in the order given; later ones win
-  std::optional<int> threads;           ///< number of OpenMP threads; nothing: one a core
-  std::filesystem::path output;         ///< the run's folder; results/<name of the parameter file> by default
-  bool force = false;                   ///< take over a folder that holds an earlier run
-  bool restart = false;                 ///< go on from the snapshot in the folder
-  bool quiet = false;                   ///< no progress, no table
-  bool plots = true;                    ///< draw the pictures at the end
-  bool print_parameters = false;        ///< write a commented parameter file with the defaults, then stop
+  std::vector<std::filesystem::path> parameter_files; ///< in the order given, later ones win; none only with
+                                                      ///< print_parameters
+  std::vector<std::string> settings; ///< texts "Section/Name=value" in the order given; they win over the files
+  std::optional<int> threads;        ///< number of OpenMP threads; nothing: one a core
+  std::filesystem::path output;      ///< the run's folder; results/<name of the first parameter file> by default
+  bool force = false;                ///< take over a folder that holds an earlier run
+  bool restart = false;              ///< go on from the snapshot in the folder
+  bool quiet = false;                ///< no progress, no table
+  bool plots = true;                 ///< draw the pictures at the end
+  bool print_parameters = false;     ///< write a commented parameter file with the defaults, then stop
 };
 
 /// The words of a driver's --help.
@@ -31,7 +32,7 @@ struct DriverDescription
 
 /// Reads the command line. Returns nothing when --help was asked for; its text is then on standard output.
 /// Throws ConfigError with the remedy for unknown or contradicting options, a number of threads below 1 or above four
-/// for a core, a missing parameter file or a malformed --set.
+/// for a core, a missing parameter file, one given twice or a malformed --set.
 std::optional<CommandLine> parse_command_line(int argc, const char *const *argv, const DriverDescription &description);
 
 } // namespace bergamo::driver

@@ -74,7 +74,8 @@ bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)
     std::cout << parameters.default_text();
     return false;
   }
-  parameters.read(command_line.parameter_file);
+  for (const std::filesystem::path &file : command_line.parameter_files)
+    parameters.read(file);
   for (const std::string &setting : command_line.settings)
     parameters.set(setting);
   return true;

@@ -24,7 +24,8 @@ enum ExitStatus : int
 int run_driver(int argc, char **argv, const DriverDescription &description,
                const std::function<int(const CommandLine &)> &job);
 
-/// Reads the parameter file and then the --set options of the command line. Returns false when only the defaults were
+/// Reads the parameter files in the order given, each over those before it, and then the --set options of the command
+/// line. Returns false when only the defaults were
 /// asked for; they are then on standard output. Throws ConfigError for the user's mistakes.
 bool read_parameters(ParameterFile &parameters, const CommandLine &command_line);
 

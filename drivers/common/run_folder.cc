@@ -33,8 +33,10 @@ bool is_part(const std::string &name)
 bool is_of_a_run(const std::string &name)
 {
   const bool is_vtu = name.ends_with(".vtu") && (name.starts_with("grains_") || name.starts_with("continuum_"));
+  const bool is_fit = name == "fit_mohr_coulomb.json" || name == "continuum.prm" ||
+                      (name.starts_with("curves_") && name.ends_with(".csv"));
   return name == "parameters.prm" || name == "history.csv" || name == "summary.json" || name == "snapshot.h5" ||
-         name == "plots" || name.ends_with(".pvd") || is_vtu;
+         name == "plots" || name.ends_with(".pvd") || is_vtu || is_fit;
 }
 
 /// The folder itself, or the nearest one above it that exists.

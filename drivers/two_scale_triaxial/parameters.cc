@@ -1,6 +1,7 @@
 #include "drivers/two_scale_triaxial/parameters.h"
 
 #include "dem/core/error.h"
+#include "drivers/common/continuum_parameters.h"
 
 #include <cmath>
 #include <numbers>
@@ -75,15 +76,7 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance",
            Range::between(0, 0.1));
 
-  file.add("Continuum", "Young's modulus", continuum.young_modulus, "[Pa]", Range::positive());
-  file.add("Continuum", "Poisson's ratio", continuum.poisson_ratio, "",
-           {.lowest = 0, .highest = 0.5, .highest_included = false});
-  file.add("Continuum", "friction angle", continuum.friction_angle, "[degree]",
-           {.lowest = 0, .highest = 90, .highest_included = false});
-  file.add("Continuum", "dilation angle", continuum.dilation_angle, "at most the friction angle [degree]",
-           {.lowest = 0, .highest = 90, .highest_included = false});
-  file.add("Continuum", "cohesion", continuum.cohesion, "[Pa]", Range::non_negative());
-  file.add("Continuum", "density", continuum.density, "of the bulk: grains and voids [kg/m3]", Range::positive());
+  declare_continuum(file, continuum);
   file.add("Continuum", "damping", continuum_damping, "mass-proportional [1/s]", Range::non_negative());
 
   file.add("Coupling", "penalty", coupling.penalty, "epsilon [Pa/m2]", Range::positive());

@@ -1,5 +1,6 @@
 #include "dem/core/error.h"
 #include "drivers/common/command_line.h"
+#include "drivers/common/driver_main.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -10,6 +11,8 @@ using Catch::Matchers::Contains;
 
 namespace
 {
+
+using Files = std::vector<std::filesystem::path>;
 
 std::optional<CommandLine> parse(std::vector<std::string> words)
 {
@@ -29,7 +32,7 @@ TEST_CASE("a command line is read, and its defaults filled in")
   put(file, "");
   const auto plain = parse({file});
   REQUIRE(plain);
-  CHECK(plain->parameter_file == file);
+  CHECK(plain->parameter_files == Files{file});
   CHECK(plain->output == "results/sand");
   CHECK(plain->plots);
   CHECK_FALSE(plain->threads);
@@ -38,7 +41,7 @@ TEST_CASE("a command line is read, and its defaults filled in")
                            "--output", "out", "--force", "--quiet", "--no-plots"});
   REQUIRE(full);
   CHECK(full->settings == std::vector<std::string>{"Grains/friction=-0.5", "Run/title=[a, b]"});
-  CHECK(full->parameter_file == file);
+  CHECK(full->parameter_files == Files{file});
   CHECK(full->threads == 1);
   CHECK(full->output == "out");
   CHECK(full->force);
@@ -47,6 +50,40 @@ TEST_CASE("a command line is read, and its defaults filled in")
   CHECK_FALSE(full->restart);
 
   CHECK(parse({"--print-parameters"})->print_parameters);
+}
+
+TEST_CASE("several parameter files keep their order, and the first one names the folder")
+{
+  TemporaryFolder folder;
+  const std::string sand = (folder / "sand.prm").string(), fit = (folder / "fit.prm").string();
+  put(sand, "");
+  put(fit, "");
+  const auto command_line = parse({sand, "--set", "Grains/friction=0.5", fit});
+  REQUIRE(command_line);
+  CHECK(command_line->parameter_files == Files{sand, fit});
+  CHECK(command_line->output == "results/sand");
+}
+
+TEST_CASE("of several parameter files, later ones win, --set wins over all, and what none names keeps its default")
+{
+  TemporaryFolder folder;
+  const std::string sand = (folder / "sand.prm").string(), fit = (folder / "fit.prm").string();
+  put(sand, "subsection Grains\n set friction = 0.1\n set density = 2000\n set damping = 0.5\nend\n");
+  put(fit, "subsection Grains\n set density = 2500\n set damping = 0.6\nend\n");
+  double friction = 0, density = 0, damping = 0, hardness = 7;
+  ParameterFile file("Test");
+  file.add("Grains", "friction", friction, "of grains");
+  file.add("Grains", "density", density, "of grains [kg/m3]");
+  file.add("Grains", "damping", damping, "of contacts");
+  file.add("Grains", "hardness", hardness, "of grains");
+  REQUIRE(read_parameters(file, *parse({sand, fit, "--set", "Grains/damping=0.7"})));
+  CHECK(friction == 0.1);
+  CHECK(density == 2500);
+  CHECK(damping == 0.7);
+  CHECK(hardness == 7);
+
+  put(fit, "subsection Grains\n set densty = 2500\nend\n");
+  CHECK_THROWS_WITH(read_parameters(file, *parse({sand, fit})), Contains("fit.prm") && Contains("densty"));
 }
 
 TEST_CASE("mistakes on the command line are explained")
@@ -59,7 +96,8 @@ TEST_CASE("mistakes on the command line are explained")
       {{(folder / "sound.prm").string()}, "does not exist"},
       {{folder.path().string()}, "is a folder"},
       {{file, "--theads", "2"}, "unknown option '--theads'; did you mean '--threads'?"},
-      {{file, "second.prm"}, "unexpected argument 'second.prm'"},
+      {{file, "second.prm"}, "'second.prm' does not exist"},
+      {{file, (folder / "." / "sand.prm").string()}, "is given twice"},
       {{file, "--threads", "0"}, "--threads 0 is out of range; allowed: 1 to "},
       {{file, "--threads", "-3"}, "--threads -3 is out of range"},
       {{file, "--threads", "100000"}, "--threads 100000 is out of range"},

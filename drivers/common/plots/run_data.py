@@ -16,8 +16,13 @@ def fail(message):
 
 
 def read_history(folder):
-    """The columns of history.csv by name, each an array with one number a row; an incomplete last row is left out."""
-    path = os.path.join(folder, "history.csv")
+    """The columns of history.csv."""
+    return read_table(folder, "history.csv")
+
+
+def read_table(folder, name):
+    """The columns of a file by name, each an array with one number a row; an incomplete last row is left out."""
+    path = os.path.join(folder, name)
     try:
         with open(path, newline="") as file:
             lines = file.read().splitlines(keepends=True)
@@ -85,8 +90,8 @@ def time_axis(time):
     return (time * 1e3, "ms") if 0 < longest < 0.1 else (time, "s")
 
 
-def new_diagram(n_rows=1, height_ratios=None):
-    """A figure and its axes in the project's look: light grid, no frame on top and right."""
+def new_diagram_look():
+    """Light grid, no frame on top and right; needs no screen."""
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
@@ -94,8 +99,22 @@ def new_diagram(n_rows=1, height_ratios=None):
         "font.size": 11, "axes.titlesize": 12, "axes.spines.top": False, "axes.spines.right": False,
         "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.6, "axes.axisbelow": True,
         "lines.linewidth": 1.6, "legend.frameon": False, "axes.formatter.useoffset": False})
+
+
+def new_diagram(n_rows=1, height_ratios=None):
+    """A figure and its axes one above the other, with one scale across, in the project's look."""
+    new_diagram_look()
+    from matplotlib import pyplot
     return pyplot.subplots(n_rows, 1, sharex=True, squeeze=False, figsize=(8.0, 4.8 if n_rows == 1 else 6.4),
                            gridspec_kw={"height_ratios": height_ratios or [1] * n_rows}, layout="constrained")
+
+
+def new_panels(n_rows, n_columns):
+    """A figure and its axes in rows and columns, each with scales of its own, in the project's look."""
+    new_diagram_look()
+    from matplotlib import pyplot
+    return pyplot.subplots(n_rows, n_columns, squeeze=False, figsize=(5.6 * n_columns, 4.2 * n_rows),
+                           layout="constrained")
 
 
 def mark_stages(axes, time, columns):

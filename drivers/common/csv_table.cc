@@ -1,0 +1,85 @@
+#include "drivers/common/csv_table.h"
+
+#include "dem/core/error.h"
+#include "drivers/common/nearest_name.h"
+#include "drivers/common/number_text.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace bergamo::driver
+{
+
+namespace
+{
+
+using dem::ConfigError;
+
+std::vector<std::string> fields_of(std::string line)
+{
+  line.erase(std::remove(line.begin(), line.end(), '\r'), line.end());
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');)
+    fields.emplace_back(trimmed(field));
+  if (line.ends_with(','))
+    fields.emplace_back();
+  return fields;
+}
+
+/// Where each wanted column stands in the header.
+std::vector<std::size_t> places_of(const std::vector<std::string> &wanted, const std::vector<std::string> &header,
+                                   const std::filesystem::path &path)
+{
+  std::vector<std::size_t> places;
+  for (const std::string &name : wanted)
+  {
+    const auto found = std::find(header.begin(), header.end(), name);
+    if (found == header.end())
+      throw ConfigError("'" + path.string() + "' has no column '" + name + "'" + did_you_mean(name, header) +
+                        "; its header must name it");
+    places.push_back(static_cast<std::size_t>(found - header.begin()));
+  }
+  return places;
+}
+
+} // namespace
+
+CsvTable read_csv(const std::filesystem::path &path, const std::vector<std::string> &wanted)
+{
+  std::ifstream file(path);
+  if (!file || std::filesystem::is_directory(path))
+    throw ConfigError("'" + path.string() + "' cannot be read; check the path and your permissions");
+  std::string line;
+  if (!std::getline(file, line) || trimmed(line).empty())
+    throw ConfigError("'" + path.string() + "' is empty; it must begin with the names of its columns");
+  const std::vector<std::string> header = fields_of(line);
+  const std::vector<std::size_t> places = places_of(wanted, header, path);
+
+  CsvTable table{path, {}, 0};
+  for (const std::string &name : wanted)
+    table.columns[name];
+  for (int number = 2; std::getline(file, line) && !file.eof(); ++number)
+  {
+    if (trimmed(line).empty())
+      continue;
+    const std::vector<std::string> fields = fields_of(line);
+    const std::string place = std::string("'") + path.string() + "' line " + std::to_string(number);
+    if (fields.size() != header.size())
+      throw ConfigError(place + " has " + std::to_string(fields.size()) + " values, not " +
+                        std::to_string(header.size()) + " as the header; mend or remove the line");
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+    {
+      const auto value = parse_number(fields[places[i]]);
+      if (!value)
+        throw ConfigError(place + ": " + wanted[i] + " is '" + fields[places[i]] +
+                          "'; it must be a finite number; mend or remove the line");
+      table.columns[wanted[i]].push_back(*value);
+    }
+    ++table.n_rows;
+  }
+  return table;
+}
+
+} // namespace bergamo::driver

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "drivers/fit_mohr_coulomb/parameters.h"
+#include "drivers/fit_mohr_coulomb/triaxial_curve.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace bergamo::driver
+{
+
+/// One triaxial test of an ensemble.
+struct Sample
+{
+  int number;
+  double edge; ///< of the cell [m]
+  double generation_friction;
+  double confining_pressure; ///< [Pa], compression positive
+  double n_particles;
+  TriaxialCurve curve; ///< of the last stage
+};
+
+struct Ensemble
+{
+  std::vector<Sample> samples; ///< finished and chosen, in the order of ensemble.csv
+  std::vector<std::string> warnings;
+};
+
+/// Reads FOLDER/ensemble.csv and, for each finished sample that is chosen, FOLDER/samples/NNNN/history.csv. Warns of
+/// samples left out and of pressures that are not held. Throws ConfigError where a file, a column or a value is
+/// missing, or no sample is left.
+Ensemble read_ensemble(const std::filesystem::path &folder, const SampleChoice &choice);
+
+} // namespace bergamo::driver

@@ -1,0 +1,71 @@
+#include "drivers/common/atomic_file.h"
+#include "drivers/common/driver_main.h"
+#include "drivers/common/plots.h"
+#include "drivers/common/run_folder.h"
+#include "drivers/fit_mohr_coulomb/report.h"
+
+#include <chrono>
+#include <iostream>
+
+namespace
+{
+
+using namespace bergamo::driver;
+
+void warn(const std::vector<std::string> &warnings)
+{
+  for (const std::string &warning : warnings)
+    std::cerr << "warning: " << warning << '\n';
+}
+
+int job(const CommandLine &command_line)
+{
+  const auto start = std::chrono::steady_clock::now();
+  FitParameters parameters;
+  ParameterFile file("Fit of Mohr-Coulomb parameters to an ensemble of triaxial tests");
+  parameters.declare(file);
+  if (!read_parameters(file, command_line))
+    return done;
+  parameters.validate();
+
+  RunFolder folder(command_line);
+  const Ensemble ensemble = read_ensemble(parameters.ensemble, parameters.choice);
+  warn(ensemble.warnings);
+  const EnsembleFit fit = fit_ensemble(ensemble.samples, parameters);
+  warn(fit.warnings);
+  const CurveTables curves = curve_tables(ensemble, fit);
+
+  folder.open();
+  file.write_resolved(folder.parameters());
+  write_atomically(folder.file("fit_mohr_coulomb.json"), fit_json(ensemble, fit, parameters));
+  write_atomically(folder.file("continuum.prm"), continuum_text(fit, parameters.ensemble));
+  write_atomically(folder.file("curves_grains.csv"), curves.grains);
+  write_atomically(folder.file("curves_continuum.csv"), curves.continuum);
+
+  Summary summary;
+  summary.set("wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), "s");
+  add_figures(summary, fit);
+  summary.write(folder.summary());
+  if (!command_line.quiet)
+    std::cout << summary.table() << "continuum: " << folder.file("continuum.prm").string() << '\n';
+  if (command_line.plots)
+  {
+    const PlotResult plots = make_plots(
+        {{"fit_mohr_coulomb.py", {folder.path().string()}}, {"triaxial_ensemble.py", {folder.path().string()}}});
+    warn(plots.warnings);
+    for (const auto &picture : plots.pictures)
+      std::cout << "picture: " << picture.string() << '\n';
+  }
+  return done;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+  return run_driver(argc, argv,
+                    {"fit_mohr_coulomb",
+                     "Fits Young's modulus, Poisson's ratio, friction angle and dilation angle of a continuum to the "
+                     "triaxial tests of an ensemble of packings, and writes them as a parameter file."},
+                    job);
+}

@@ -1,0 +1,54 @@
+#include "drivers/fit_mohr_coulomb/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bergamo::driver
+{
+
+void FitParameters::declare(ParameterFile &file)
+{
+  file.add("Ensemble", "folder", ensemble,
+           "run folder of rve_triaxial with ensemble.csv, from where the program starts");
+  file.add("Ensemble", "edges", choice.edges, "only samples with these edges of the cell [m]; empty: all",
+           Range::positive());
+  file.add("Ensemble", "generation frictions", choice.generation_frictions,
+           "only samples packed with these friction coefficients; empty: all", Range::non_negative());
+  file.add("Ensemble", "pressures", choice.pressures, "only samples under these confining pressures [Pa]; empty: all",
+           Range::positive());
+
+  file.add("Elasticity", "axial strain", windows.elastic_strain,
+           "Young's modulus and Poisson's ratio are slopes from the start of the shear to this compression",
+           Range::strictly_between(0, 1));
+  file.add("Elasticity", "pressures", young_pressures,
+           "Young's modulus is the mean over samples under these confining pressures [Pa]; empty: all",
+           Range::positive());
+
+  file.add("Strength", "averaged strain", windows.peak_average,
+           "width in axial strain over which stresses are averaged before the largest is sought; 0: none",
+           {.lowest = 0, .highest = 1, .highest_included = false});
+  file.add("Strength", "cohesion from", cohesion_source,
+           "given: as below; common tangent: of the line nearest to the circles of all samples (least squares)",
+           {{"given", CohesionSource::given}, {"common tangent", CohesionSource::common_tangent}});
+  file.add("Strength", "cohesion", cohesion, "where it is given [Pa]", Range::non_negative());
+
+  file.add("Dilation", "from", windows.dilation_from, "the dilation rate is a slope from this axial compression",
+           {.lowest = 0, .highest = 1, .highest_included = false});
+  file.add("Dilation", "to", windows.dilation_to, "to this axial compression", Range::strictly_between(0, 1));
+
+  file.add("Final state", "averaged strain", windows.final_average,
+           "width in axial strain at the end of the shear over which the final state is averaged",
+           {.lowest = 0, .highest = 1, .highest_included = false});
+
+  file.add("Grains", "density", grain_density,
+           "of the mineral; times the initial solid fraction it is the continuum's density [kg/m3]", Range::positive());
+}
+
+bool takes(const std::vector<double> &list, const double value)
+{
+  return list.empty() ||
+         std::any_of(list.begin(), list.end(),
+                     [&](const double listed) { return std::abs(listed - value) <= 1e-6 * std::abs(value); });
+}
+
+} // namespace bergamo::driver

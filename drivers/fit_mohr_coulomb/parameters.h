@@ -1,0 +1,47 @@
+#pragma once
+
+#include "drivers/common/parameter_file.h"
+#include "drivers/fit_mohr_coulomb/fit.h"
+
+#include <string>
+#include <vector>
+
+namespace bergamo::driver
+{
+
+/// Which samples of an ensemble are fitted. An empty list takes all.
+struct SampleChoice
+{
+  std::vector<double> edges;                ///< of the cells [m]
+  std::vector<double> generation_frictions; ///< of the packings
+  std::vector<double> pressures;            ///< confining [Pa]
+};
+
+enum class CohesionSource
+{
+  given,
+  common_tangent
+};
+
+/// Everything that steers the fit. SI units.
+struct FitParameters
+{
+  std::string ensemble = "results/rve_triaxial"; ///< folder
+  SampleChoice choice;
+  FitWindows windows;
+  std::vector<double> young_pressures; ///< those whose samples give Young's modulus [Pa]; empty: all
+  CohesionSource cohesion_source = CohesionSource::given;
+  double cohesion = 15;         ///< [Pa], where it is given
+  double grain_density = 2650.; ///< [kg/m3]
+
+  /// Binds every parameter to its name in the parameter file.
+  void declare(ParameterFile &file);
+
+  /// Throws ConfigError for values that do not go together.
+  void validate() const { windows.validate(); }
+};
+
+/// Whether a list takes a value: empty lists take all; numbers are equal to 1e-6 of their size.
+bool takes(const std::vector<double> &list, double value);
+
+} // namespace bergamo::driver

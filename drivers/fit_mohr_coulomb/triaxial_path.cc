@@ -1,0 +1,74 @@
+#include "drivers/fit_mohr_coulomb/triaxial_path.h"
+
+#include "dem/core/error.h"
+
+#include <cmath>
+
+namespace bergamo::driver
+{
+
+namespace
+{
+
+struct Step
+{
+  double lateral_strain; ///< increment
+  fe::Stress stress;
+};
+
+/// Secant steps for the lateral strain that holds the pressure. The residual is increasing and made of two straight
+/// pieces, elastic and on the edge, so few steps end it.
+Step hold_pressure(const fe::MohrCoulomb &material, const fe::Stress &old, const double axial, const double pressure)
+{
+  const auto stress_at = [&](const double lateral) {
+    return material.update(old, {lateral, lateral, axial, 0, 0, 0}).stress;
+  };
+  const auto residual_of = [&](const fe::Stress &stress) { return 0.5 * (stress[0] + stress[1]) + pressure; };
+
+  const double elastic_modulus = 2 * (material.lame_modulus() + material.shear_modulus());
+  // Some rounding of the trial stress, which a large step makes far larger than the pressure, is left over.
+  const double tolerance = 1e-12 * pressure + 1e-14 * elastic_modulus * std::abs(axial);
+  double earlier = 0;
+  double earlier_residual = residual_of(stress_at(earlier));
+  double lateral = -earlier_residual / elastic_modulus;
+  for (int iteration = 0; iteration < 100; ++iteration)
+  {
+    const fe::Stress stress = stress_at(lateral);
+    const double residual = residual_of(stress);
+    if (std::abs(residual) <= tolerance)
+      return {lateral, stress};
+    const double slope = (residual - earlier_residual) / (lateral - earlier);
+    earlier = lateral;
+    earlier_residual = residual;
+    lateral -= residual / (slope > 0 ? slope : elastic_modulus);
+  }
+  throw dem::RunError("no lateral strain holds the pressure of " + std::to_string(pressure) +
+                      " Pa on the continuum; check the fitted parameters");
+}
+
+} // namespace
+
+TriaxialCurve drive_triaxial(const fe::MohrCoulomb &material, const TriaxialStart &start,
+                             const std::span<const double> axial_strains)
+{
+  const double p = start.confining_pressure;
+  fe::Stress stress{-p, -p, -p, 0, 0, 0};
+  double axial = 0, lateral = 0;
+  TriaxialCurve curve;
+  for (const double next_axial : axial_strains)
+  {
+    const Step step = hold_pressure(material, stress, next_axial - axial, p);
+    stress = step.stress;
+    axial = next_axial;
+    lateral += step.lateral_strain;
+    const double volumetric = axial + 2 * lateral;
+    curve.axial_strain.push_back(axial);
+    curve.volumetric_strain.push_back(volumetric);
+    curve.axial_stress.push_back(stress[2]);
+    curve.lateral_stress.push_back(0.5 * (stress[0] + stress[1]));
+    curve.solid_fraction.push_back(start.initial_solid_fraction / (1 + volumetric));
+  }
+  return curve;
+}
+
+} // namespace bergamo::driver
