@@ -36,7 +36,7 @@ def draw_elastic(axes, fit, groups):
         compression = -rows["axial_strain"]
         near = compression <= reach
         axes.plot(100 * compression[near], -rows["axial_stress_Pa"][near] / 1e3, color=colour_of(i))
-        end = min(reach, fit["peak_stress_ratio"]["mean"] * pressure / young)
+        end = min(reach, (fit["peak_stress_ratio"]["mean"] - 1) * pressure / young)  # where it yields
         axes.plot([0, 100 * end], [pressure / 1e3, (pressure + young * end) / 1e3], **LINE,
                   label=f"E = {young / 1e6:.1f} MPa" if i == len(groups) - 1 else None)
     axes.axvspan(0, 100 * fit["windows"]["elastic_axial_strain"], color="#EEEEEE", zorder=0)
