@@ -36,7 +36,7 @@ bool is_of_a_run(const std::string &name)
   const bool is_fit = name == "fit_mohr_coulomb.json" || name == "continuum.prm" ||
                       (name.starts_with("curves_") && name.ends_with(".csv"));
   return name == "parameters.prm" || name == "history.csv" || name == "summary.json" || name == "snapshot.h5" ||
-         name == "plots" || name.ends_with(".pvd") || is_vtu || is_fit;
+         name == "plots" || name == "samples" || name == "ensemble.csv" || name.ends_with(".pvd") || is_vtu || is_fit;
 }
 
 /// The folder itself, or the nearest one above it that exists.

@@ -21,8 +21,9 @@ enum class FolderMode
 /// changes the disk and belongs after all validation, right before the first file is written.
 ///
 /// With `force`, open() moves what an earlier run left (parameters.prm, history.csv, summary.json, snapshot.h5,
-/// grains_*.vtu, continuum_*.vtu, *.pvd, plots/, and of a fit fit_mohr_coulomb.json, continuum.prm, curves_*.csv) to
-/// the sub-folder previous_run, which replaces an older previous_run. Files that no run writes stay where they are.
+/// grains_*.vtu, continuum_*.vtu, *.pvd, plots/, of an ensemble samples/ and ensemble.csv, of a fit
+/// fit_mohr_coulomb.json, continuum.prm, curves_*.csv) to the sub-folder previous_run, which replaces an older
+/// previous_run. Files that no run writes stay where they are.
 class RunFolder
 {
 public:

@@ -1,0 +1,220 @@
+#include "drivers/rve_triaxial/parameters.h"
+
+#include "dem/core/error.h"
+
+#include <utility>
+
+namespace bergamo::driver
+{
+
+using dem::LoadingPath;
+
+RveParameters::RveParameters()
+{
+  generation.pressure = 1e3;
+  generation.inertial_number = 1e-2;
+  for (StageSettings &s : stages)
+    s.stage.pressure = 0.;
+  stages[1].stage.inertial_number = 1e-4;
+  stages[1].stage.axial_strain = -0.25;
+  path_names.fill("none");
+  path_names[0] = "isotropic";
+  path_names[1] = "triaxial";
+}
+
+namespace
+{
+
+/// What all stages have.
+void declare_end(ParameterFile &file, const std::string &section, dem::LoadingStage &stage)
+{
+  file.add(section, "inertial number", stage.inertial_number, "of the strain rate",
+           {.lowest = 0, .highest = 0.1, .lowest_included = false});
+  file.add(section, "time step", stage.time_step, "at most, and a fifth below the stable one [s]", Range::positive());
+  file.add(section, "stress tolerance", stage.stress_tolerance, "over the pressure", Range::strictly_between(0, 1));
+  file.add(section, "force tolerance", stage.force_tolerance, "mean unbalanced over mean contact force at the end",
+           Range::strictly_between(0, 1));
+  file.add(section, "longest time", stage.longest_time, "simulated, then the stage has failed [s]", Range::positive());
+}
+
+constexpr std::array<std::pair<const char *, LoadingPath>, 5> paths{
+    {{"isotropic", LoadingPath::isotropic},
+     {"triaxial", LoadingPath::triaxial},
+     {"true triaxial", LoadingPath::true_triaxial},
+     {"constant volume", LoadingPath::constant_volume},
+     {"constant pressure", LoadingPath::constant_pressure}}};
+
+/// A seed of its own for every packing, exact as a double in ensemble.csv (SplitMix64, Steele et al. 2014).
+std::uint64_t mixed_seed(std::uint64_t value)
+{
+  value += 0x9e3779b97f4a7c15u;
+  value = (value ^ value >> 30) * 0xbf58476d1ce4e5b9u;
+  value = (value ^ value >> 27) * 0x94d049bb133111ebu;
+  return (value ^ value >> 31) >> 11;
+}
+
+} // namespace
+
+void RveParameters::declare(ParameterFile &file)
+{
+  file.add("Ensemble", "samples", n_samples, "of each combination of the lists below", Range::between(1, 10000));
+  file.add("Ensemble", "seed", seed, "of the first sample; the others follow");
+  file.add("Ensemble", "edges", edges, "of the periodic cells before their compression [m]", Range::positive());
+  file.add("Ensemble", "generation frictions", generation_frictions,
+           "between grains while a packing is compressed: less gives denser packings", Range::non_negative());
+  file.add("Ensemble", "confining pressures", confining_pressures, "[Pa]", Range::positive());
+
+  file.add("Grains", "sizes", size_kind, "which of the three sections below counts",
+           {{"gaussian", SizeKind::gaussian}, {"uniform", SizeKind::uniform}, {"sieves", SizeKind::sieves}});
+  file.add("Grains/Gaussian", "mean half-axes", {gaussian.mean_half_axes.data(), 3}, "[m]", Range::positive());
+  file.add("Grains/Gaussian", "relative deviation", gaussian.relative_deviation,
+           "standard deviation of a half-axis over its mean", Range::between(0, 1));
+  file.add("Grains/Gaussian", "smallest half-axis", gaussian.smallest_half_axis, "[m]", Range::positive());
+  file.add("Grains/Gaussian", "largest half-axis", gaussian.largest_half_axis, "[m]", Range::positive());
+  file.add("Grains/Gaussian", "smallest exponent", gaussian.smallest_exponent,
+           "of the uniform distribution; towards 0 a box, 1 an ellipsoid, towards 2 an octahedron",
+           Range::strictly_between(0, 2));
+  file.add("Grains/Gaussian", "largest exponent", gaussian.largest_exponent, "of the uniform distribution",
+           Range::strictly_between(0, 2));
+  file.add("Grains/Uniform", "smallest diameter", uniform.smallest_diameter, "of the sphere of equal volume [m]",
+           Range::positive());
+  file.add("Grains/Uniform", "largest diameter", uniform.largest_diameter, "[m]", Range::positive());
+  file.add("Grains/Sieves", "d10", d10, "opening that a tenth of the mass passes [m]", Range::positive());
+  file.add("Grains/Sieves", "d50", d50, "[m]", Range::positive());
+  file.add("Grains/Sieves", "d60", d60, "[m]", Range::positive());
+  file.add("Grains/Shapes", "elongation", uniform.shapes.elongation,
+           "largest ratio of two half-axes, for uniform sizes and sieves", Range::at_least(1));
+  file.add("Grains/Shapes", "angularity", uniform.shapes.angularity,
+           "largest distance of an exponent from 1, for uniform sizes and sieves",
+           {.lowest = 0, .highest = 1, .highest_included = false});
+
+  file.add("Grains", "Young's modulus", simulation.grain.young_modulus, "of the mineral [Pa]", Range::positive());
+  file.add("Grains", "Poisson's ratio", simulation.grain.poisson_ratio, "of the mineral",
+           {.lowest = 0, .highest = 0.5, .highest_included = false});
+  file.add("Grains", "density", simulation.grain.density, "of the mineral [kg/m3]", Range::positive());
+  file.add("Grains", "damping ratio", simulation.damping_ratio, "dashpot at the contacts, share of critical damping",
+           Range::between(0, 10));
+  file.add("Grains", "overlap tolerance", simulation.contact.overlap_tolerance,
+           "relative error of the overlap that may build up between two searches of a contact; 0 searches every step",
+           Range::between(0, 0.1));
+  file.add("Grains", "curvature bound", simulation.contact.curvature_bound,
+           "k: radii of curvature at contacts lie in [k r_min, r_max / k], r the half-axes of the grain",
+           {.lowest = 0, .highest = 1, .lowest_included = false});
+  file.add("Grains", "Verlet distance", simulation.verlet_distance, "over the mean bounding radius",
+           {.lowest = 0, .highest = 2, .lowest_included = false});
+
+  file.add("Packing", "solid fraction", packing_solid_fraction, "of the geometric packing, before any contact",
+           Range::strictly_between(0, 1));
+  file.add("Packing", "pressure", generation.pressure, "of the isotropic compression that follows [Pa]",
+           Range::positive());
+  declare_end(file, "Packing", generation);
+
+  for (std::size_t k = 0; k < max_stages; ++k)
+  {
+    const std::string section = "Stage " + std::to_string(k + 1);
+    dem::LoadingStage &stage = stages[k].stage;
+    file.add(section, "path", path_names[k],
+             "of the loading; none ends the program. triaxial: strained along z, the pressure across kept; true "
+             "triaxial: a stress on every axis; constant volume, constant pressure: strained along z",
+             {"none", "isotropic", "triaxial", "true triaxial", "constant volume", "constant pressure"});
+    file.add(section, "pressure", stage.pressure, "0: the sample's confining pressure [Pa]", Range::non_negative());
+    file.add(section, "stresses", {stage.stresses.data(), 3}, "of true triaxial loading, compression positive [Pa]",
+             Range::non_negative());
+    file.add(section, "friction", stage.friction, "between grains", Range::non_negative());
+    file.add(section, "axial strain", stage.axial_strain, "along z since the start of the stage; compression is < 0");
+    file.add(section, "cycles", stage.n_cycles,
+             "of the axial strain: to the one above, to its opposite and so on, and back; 0 goes there once",
+             Range::between(0, 1000000));
+    declare_end(file, section, stage);
+  }
+
+  file.add("Output", "rows", n_rows, "of history.csv in each strained stage", Range::between(2, 1000000));
+  file.add("Output", "row interval", row_interval, "steps between rows in stages without a strain of their own",
+           Range::between(1, 1000000000));
+  file.add("Output", "distributions", n_distributions, "rows of distributions.csv in each strained stage",
+           Range::between(1, 100000));
+  file.add("Output", "pictures", pictures, "of the grains at the end of every stage, for ParaView");
+  file.add("Output", "snapshot interval", snapshot_interval, "wall clock time between snapshots of a sample [s]",
+           Range::positive());
+}
+
+void RveParameters::take_stages()
+{
+  for (std::size_t k = 0; k < max_stages; ++k)
+  {
+    stages[k].is_used = false;
+    for (const auto &[name, path] : paths)
+      if (path_names[k] == name)
+      {
+        stages[k].is_used = true;
+        stages[k].stage.path = path;
+      }
+  }
+}
+
+void RveParameters::validate() const
+{
+  const auto fail = [](const std::string &text) { throw dem::ConfigError(text); };
+  simulation.validate();
+  if (size_kind == SizeKind::gaussian)
+    gaussian.validate();
+  else if (size_kind == SizeKind::uniform)
+    uniform.validate();
+  else
+    dem::SieveCurve::through(d10, d50, d60, uniform.shapes).validate();
+  dem::PackingParameters packing;
+  packing.solid_fraction = packing_solid_fraction;
+  packing.validate();
+  if (edges.empty() || generation_frictions.empty() || confining_pressures.empty())
+    fail("Ensemble: the lists of edges, generation frictions and confining pressures need one value each at least");
+  for (std::size_t k = 0; k + 1 < max_stages; ++k)
+    if (!stages[k].is_used && stages[k + 1].is_used)
+      fail("Stage " + std::to_string(k + 1) + "/path is none, but stage " + std::to_string(k + 2) +
+           " is not: stages follow one another without a gap");
+  for (const SampleSettings &sample : samples())
+    for (const dem::LoadingStage &stage : program(sample))
+      stage.validate();
+}
+
+dem::Grading RveParameters::grading() const
+{
+  switch (size_kind)
+  {
+  case SizeKind::uniform:
+    return uniform;
+  case SizeKind::sieves:
+    return dem::SieveCurve::through(d10, d50, d60, uniform.shapes);
+  default:
+    return gaussian;
+  }
+}
+
+std::vector<SampleSettings> RveParameters::samples() const
+{
+  std::vector<SampleSettings> all;
+  for (const double edge : edges)
+    for (const double friction : generation_frictions)
+      for (const double pressure : confining_pressures)
+        for (int k = 0; k < n_samples; ++k)
+        {
+          const auto number = static_cast<std::int64_t>(all.size()) + 1;
+          all.push_back({number, mixed_seed(seed + static_cast<std::uint64_t>(k)), edge, friction, pressure});
+        }
+  return all;
+}
+
+std::vector<dem::LoadingStage> RveParameters::program(const SampleSettings &sample) const
+{
+  std::vector<dem::LoadingStage> program{generation};
+  program[0].friction = sample.generation_friction;
+  for (const StageSettings &settings : stages)
+    if (settings.is_used)
+    {
+      program.push_back(settings.stage);
+      if (program.back().pressure == 0.)
+        program.back().pressure = sample.confining_pressure;
+    }
+  return program;
+}
+
+} // namespace bergamo::driver
