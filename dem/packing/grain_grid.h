@@ -29,13 +29,17 @@ public:
   void add(const std::int32_t grain, const Vec3 &position, const double radius)
   {
     const auto c = cell(position);
-    cells[index(c[0], c[1], c[2])].push_back({position, radius, grain});
+    const std::size_t at = index(c[0], c[1], c[2]);
+    if (cells[at].empty())
+      used.push_back(at);
+    cells[at].push_back({position, radius, grain});
   }
 
   void clear()
   {
-    for (auto &cell : cells)
-      cell.clear();
+    for (const std::size_t at : used)
+      cells[at].clear();
+    used.clear();
   }
 
   /// Calls found(grain, centre line) for the grains nearer than `reach` and their own radius, from cell to cell and in
@@ -94,6 +98,7 @@ private:
   const PackingSpace *space;
   int n[3];
   std::vector<std::vector<Entry>> cells;
+  std::vector<std::size_t> used; // cells that hold any: a round with few grains clears few
 };
 
 } // namespace bergamo::dem

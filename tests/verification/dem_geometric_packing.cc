@@ -156,6 +156,23 @@ TEST_CASE("sand in a periodic cube of 10 mm at a solid fraction of 0.55")
     CHECK(std::abs(share - 0.2) < bound(0.2));
 }
 
+TEST_CASE("random addition prefers no place")
+{
+  // At a solid fraction of 0.1 centres are nearly independent: a share p of n grains scatters by sqrt(p (1 - p)/n).
+  const PackingSpace space = periodic_cube(17e-3);
+  std::mt19937_64 generator(21);
+  auto grains = draw_grains({}, 0.1 * space.volume(), generator);
+  const GrainPlaces places = place_at_random(grains, space, 22).places;
+  const double n = static_cast<double>(grains.size());
+  REQUIRE(n > 1400.);
+  std::vector<double> slabs(3 * 5, 0.);
+  for (const Vec3 &x : places.position)
+    for (int d = 0; d < 3; ++d)
+      slabs[5 * d + std::min(4, static_cast<int>(5. * x[d] / 17e-3))] += 1. / n;
+  for (const double share : slabs)
+    CHECK(std::abs(share - 0.2) < 4. * std::sqrt(0.16 / n));
+}
+
 TEST_CASE("packings in a box, a cylinder and a polyhedron keep inside")
 {
   const double edge = 7e-3;
