@@ -177,6 +177,26 @@ void Simulation::refresh_contacts()
 
 void Simulation::compute_forces()
 {
+  compute_contacts();
+  Stopwatch watch;
+  parallel_ranges(particles.size(), 64,
+                  [&](std::size_t, const std::size_t begin, const std::size_t end) { sum_contact_forces(begin, end); });
+  watch.lap(times.summation);
+}
+
+void Simulation::integrate()
+{
+  move({});
+}
+
+void Simulation::step()
+{
+  compute_contacts();
+  move([this](const std::size_t begin, const std::size_t end) { sum_contact_forces(begin, end); });
+}
+
+void Simulation::compute_contacts()
+{
   bool wall_moved = false;
   for (std::size_t w = 0; w < walls.size(); ++w)
     wall_moved = wall_moved || walls[w].motion - h.wall_motion_when_built[w] > 0.5 * h.verlet_distance;
@@ -194,30 +214,29 @@ void Simulation::compute_forces()
   watch.restart();
   wall_contacts.compute(particles, walls, wall_law, p.contact, p.time_step);
   watch.lap(times.walls);
-  sum_contact_forces();
-  watch.lap(times.summation);
 }
 
-void Simulation::sum_contact_forces()
+/// Sums what contacts give to the grains from `begin` to `end`.
+void Simulation::sum_contact_forces(const std::size_t begin, const std::size_t end)
 {
-  parallel_for(particles.size(),
-               [&](const std::size_t i)
-               {
-                 BodyLoad load;
-                 pairs.add_load(i, load);
-                 wall_contacts.add_load(i, load);
-                 particles.force[i] = load.force.head<3>();
-                 particles.torque[i] = load.torque.head<3>();
-               });
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    BodyLoad load;
+    pairs.add_load(i, load);
+    wall_contacts.add_load(i, load);
+    particles.force[i] = load.force.head<3>();
+    particles.torque[i] = load.torque.head<3>();
+  }
 }
 
-void Simulation::integrate()
+/// Moves to the next step. @param before see advance()
+void Simulation::move(const std::function<void(std::size_t, std::size_t)> &before)
 {
   Stopwatch watch;
   const double dt = p.time_step;
   if (!particles.external_force.empty() || !h.last_external_force.empty())
     book_external_work();
-  if (!advance(particles, p.gravity, dt))
+  if (!advance(particles, p.gravity, dt, before))
     report_divergence();
   const ContactLosses &lost = pairs.losses, &wall_lost = wall_contacts.losses;
   if (!std::isfinite(lost.friction + lost.viscous + lost.curvature + wall_lost.friction + wall_lost.viscous +

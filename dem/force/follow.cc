@@ -28,9 +28,11 @@ BERGAMO_INLINE void prefetch(const ContactStore<State> &store, const std::size_t
   for (int lane = 0; lane < pack_width; ++lane)
   {
     const std::int32_t j = store.second[block * pack_width + lane];
-    __builtin_prefetch(&p.position[j]);
-    __builtin_prefetch(&p.velocity[j]);
-    __builtin_prefetch(&p.angular_velocity[j]);
+    for (const Vec3 *vector : {&p.position[j], &p.velocity[j], &p.angular_velocity[j]})
+    {
+      __builtin_prefetch(vector->data());
+      __builtin_prefetch(vector->data() + 2); // every fourth vector goes over to the next line
+    }
   }
 }
 

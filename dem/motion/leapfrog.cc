@@ -57,9 +57,9 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
   const Vector3<Pack> position = load(p.position, grains) + velocity * Pack(dt);
   const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * (kick * free);
 
-  const auto number = [&](const int d)
-  { return math::generate<Pack>([&](const int lane) { return p.orientation[grains(lane)].coeffs()[d]; }); };
-  const Orientation<Pack> old{number(0), number(1), number(2), number(3)};
+  const auto [x, y, z, w] =
+      math::gather_rows<Pack>([&](const int lane) -> const Vec4 & { return p.orientation[grains(lane)].coeffs(); });
+  const Orientation<Pack> old{x, y, z, w};
   const Vector3<Pack> spin = mean_angular_velocity(old, load(p.inertia, grains), momentum, dt);
   const Orientation<Pack> orientation = turned(old, Vector3<Pack>(spin * Pack(dt)));
 
@@ -71,19 +71,23 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
   store(p.position, grains, position);
   store(p.angular_momentum, grains, momentum);
   store(p.angular_velocity, grains, spin);
+  // A last pack that is not full leaves what is too much aside.
+  Vec4 unused;
+  math::scatter_vectors<Pack>(
+      {orientation.x, orientation.y, orientation.z},
+      [&](const int lane) -> Vec4 & { return lane < grains.size() ? p.orientation[grains(lane)].coeffs() : unused; },
+      orientation.w);
   for (int lane = 0; lane < grains.size(); ++lane)
-  {
-    p.orientation[grains.begin + lane] = Quaternion(math::lane(orientation.w, lane), math::lane(orientation.x, lane),
-                                                    math::lane(orientation.y, lane), math::lane(orientation.z, lane));
     p.motion[grains.begin + lane] += math::lane(motion, lane);
-  }
   return true;
 }
 
 } // namespace
 
-bool advance(Particles &particles, const Vec3 &gravity, const double time_step)
+bool advance(Particles &particles, const Vec3 &gravity, const double time_step,
+             const std::function<void(std::size_t begin, std::size_t end)> &before)
 {
+  constexpr std::size_t packs_at_once = 16;
   struct Found
   {
     bool is_finite;
@@ -97,7 +101,11 @@ bool advance(Particles &particles, const Vec3 &gravity, const double time_step)
                     bool is_finite = true;
                     Pack largest(0.);
                     for (std::size_t pack = begin; pack < end; ++pack)
+                    {
+                      if (before && (pack - begin) % packs_at_once == 0)
+                        before(pack * pack_width, std::min(std::min(pack + packs_at_once, end) * pack_width, n));
                       is_finite &= advance_lanes(particles, {pack * pack_width, n}, gravity, time_step, largest);
+                    }
                     double most = 0.;
                     for (int lane = 0; lane < pack_width; ++lane)
                       most = std::max(most, math::lane(largest, lane));
