@@ -177,26 +177,6 @@ void Simulation::refresh_contacts()
 
 void Simulation::compute_forces()
 {
-  compute_contacts();
-  Stopwatch watch;
-  parallel_ranges(particles.size(), 64,
-                  [&](std::size_t, const std::size_t begin, const std::size_t end) { sum_contact_forces(begin, end); });
-  watch.lap(times.summation);
-}
-
-void Simulation::integrate()
-{
-  move({});
-}
-
-void Simulation::step()
-{
-  compute_contacts();
-  move([this](const std::size_t begin, const std::size_t end) { sum_contact_forces(begin, end); });
-}
-
-void Simulation::compute_contacts()
-{
   bool wall_moved = false;
   for (std::size_t w = 0; w < walls.size(); ++w)
     wall_moved = wall_moved || walls[w].motion - h.wall_motion_when_built[w] > 0.5 * h.verlet_distance;
@@ -214,29 +194,30 @@ void Simulation::compute_contacts()
   watch.restart();
   wall_contacts.compute(particles, walls, wall_law, p.contact, p.time_step);
   watch.lap(times.walls);
+  sum_contact_forces();
+  watch.lap(times.summation);
 }
 
-/// Sums what contacts give to the grains from `begin` to `end`.
-void Simulation::sum_contact_forces(const std::size_t begin, const std::size_t end)
+void Simulation::sum_contact_forces()
 {
-  for (std::size_t i = begin; i < end; ++i)
-  {
-    BodyLoad load;
-    pairs.add_load(i, load);
-    wall_contacts.add_load(i, load);
-    particles.force[i] = load.force.head<3>();
-    particles.torque[i] = load.torque.head<3>();
-  }
+  parallel_for(particles.size(),
+               [&](const std::size_t i)
+               {
+                 BodyLoad load;
+                 pairs.add_load(i, load);
+                 wall_contacts.add_load(i, load);
+                 particles.force[i] = load.force.head<3>();
+                 particles.torque[i] = load.torque.head<3>();
+               });
 }
 
-/// Moves to the next step. @param before see advance()
-void Simulation::move(const std::function<void(std::size_t, std::size_t)> &before)
+void Simulation::integrate()
 {
   Stopwatch watch;
   const double dt = p.time_step;
   if (!particles.external_force.empty() || !h.last_external_force.empty())
     book_external_work();
-  if (!advance(particles, p.gravity, dt, before))
+  if (!advance(particles, p.gravity, dt))
     report_divergence();
   const ContactLosses &lost = pairs.losses, &wall_lost = wall_contacts.losses;
   if (!std::isfinite(lost.friction + lost.viscous + lost.curvature + wall_lost.friction + wall_lost.viscous +
@@ -348,11 +329,17 @@ double Simulation::stable_time_step() const
 
 void Simulation::check_finite() const
 {
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
-        !particles.angular_momentum[i].allFinite() || !particles.angular_velocity[i].allFinite() ||
-        !particles.orientation[i].coeffs().allFinite())
-      throw_diverged(i, "whose state is not finite");
+  Collected<std::size_t> diverged;
+  parallel_ranges(particles.size(), 256,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t i = begin; i < end; ++i)
+                      if (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
+                          !particles.angular_momentum[i].allFinite() || !particles.angular_velocity[i].allFinite() ||
+                          !particles.orientation[i].coeffs().allFinite())
+                        diverged.of(part).push_back(i);
+                  });
+  diverged.for_each([&](const std::size_t i) { throw_diverged(i, "whose state is not finite"); });
 }
 
 void Simulation::report_divergence() const

@@ -8,7 +8,6 @@
 #include "dem/state/wall.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -47,8 +46,11 @@ public:
   void compute_forces(); ///< contacts and their resultants at the present step
   void integrate();      ///< kick, turn and drift to the next step; throws RunError as check_finite() does
 
-  /// Both at once, to the same bits: each grain moves as soon as its force is summed.
-  void step();
+  void step()
+  {
+    compute_forces();
+    integrate();
+  }
 
   /// Goes on with other parameters: friction, time step, contact search. Materials and Verlet distance stay.
   void change(const SimulationParameters &parameters);
@@ -111,9 +113,7 @@ private:
   bool grains_left_their_neighbours();
   void rebuild_neighbours();
   void book_external_work();
-  void compute_contacts();
-  void sum_contact_forces(std::size_t begin, std::size_t end);
-  void move(const std::function<void(std::size_t, std::size_t)> &before);
+  void sum_contact_forces();
   [[noreturn]] void report_divergence() const;
   [[noreturn]] void throw_diverged(std::size_t i, const char *trouble) const;
   double gravity_potential() const;

@@ -13,7 +13,7 @@ struct PhaseTimes
   double screening = 0.;  ///< pairs apart
   double searches = 0.;
   double walls = 0.;
-  double summation = 0.; ///< where it is not done along with the motion
+  double summation = 0.;
   double motion = 0.;
 };
 

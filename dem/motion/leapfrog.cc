@@ -84,10 +84,8 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Vec3 &gravity, const
 
 } // namespace
 
-bool advance(Particles &particles, const Vec3 &gravity, const double time_step,
-             const std::function<void(std::size_t begin, std::size_t end)> &before)
+bool advance(Particles &particles, const Vec3 &gravity, const double time_step)
 {
-  constexpr std::size_t packs_at_once = 16;
   struct Found
   {
     bool is_finite;
@@ -101,11 +99,7 @@ bool advance(Particles &particles, const Vec3 &gravity, const double time_step,
                     bool is_finite = true;
                     Pack largest(0.);
                     for (std::size_t pack = begin; pack < end; ++pack)
-                    {
-                      if (before && (pack - begin) % packs_at_once == 0)
-                        before(pack * pack_width, std::min(std::min(pack + packs_at_once, end) * pack_width, n));
                       is_finite &= advance_lanes(particles, {pack * pack_width, n}, gravity, time_step, largest);
-                    }
                     double most = 0.;
                     for (int lane = 0; lane < pack_width; ++lane)
                       most = std::max(most, math::lane(largest, lane));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace bergamo::dem
 {
@@ -12,11 +13,24 @@ namespace bergamo::dem
 CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size)
 {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
-  for (const Vec3 &x : positions)
-  {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
+  Collected<std::pair<Vec3, Vec3>> bounds;
+  parallel_ranges(positions.size(), 1024,
+                  [&](const std::size_t part, const std::size_t first, const std::size_t last)
+                  {
+                    Vec3 least = Vec3::Constant(std::numeric_limits<double>::max()), most = -least;
+                    for (std::size_t i = first; i < last; ++i)
+                    {
+                      least = least.cwiseMin(positions[i]);
+                      most = most.cwiseMax(positions[i]);
+                    }
+                    bounds.of(part).emplace_back(least, most);
+                  });
+  bounds.for_each(
+      [&](const std::pair<Vec3, Vec3> &b)
+      {
+        low = low.cwiseMin(b.first);
+        high = high.cwiseMax(b.second);
+      });
   const Vec3 extent = positions.empty() ? Vec3::Zero() : Vec3(high - low);
   const double most_cells = 8. * positions.size() + 64.;
   const auto cells = [&](const double size) { return (extent / size).array().floor() + 1.; };
