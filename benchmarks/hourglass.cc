@@ -1,5 +1,7 @@
 #include "benchmarks/hourglass.h"
 
+#include "dem/core/error.h"
+#include "dem/io/snapshot.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 
@@ -61,6 +63,66 @@ void add_walls(dem::Particles &particles, const Shape &shape, const double botto
   }
 }
 
+dem::SimulationParameters parameters_of(const HourglassRecipe &recipe)
+{
+  dem::SimulationParameters parameters;
+  parameters.grain.young_modulus = parameters.wall.young_modulus = recipe.young_modulus;
+  parameters.wall_friction = parameters.friction;
+  parameters.gravity = Vec3(0., 0., -9.81);
+  parameters.damping_ratio = 0.5;
+  parameters.verlet_distance = 0.2;
+  // A tenth of the period of the smallest grain on a stiff contact, which the log shows.
+  parameters.time_step = 8e-6 * std::sqrt(1e7 / recipe.young_modulus);
+  return parameters;
+}
+
+constexpr const char *archive_kind = "flowing hourglass";
+constexpr int route = 1; // increase it with every change of flowing_hourglass()
+
+/// Figures of the flow after one more step: they tell whether the engine still reads its own files rightly.
+FlowFigures figures_after_step(const dem::Simulation &hourglass)
+{
+  dem::Simulation next = hourglass;
+  next.step();
+  return flow_figures(next);
+}
+
+std::unique_ptr<dem::Simulation> read_hourglass(const std::filesystem::path &path, const HourglassRecipe &recipe)
+{
+  const dem::ArchiveReader archive(path, archive_kind);
+  if (archive.read_integer("recipe/route") != route || archive.read_integer("recipe/n_grains") != recipe.n_grains ||
+      archive.read_double("recipe/neck_radius") != recipe.neck_radius ||
+      archive.read_double("recipe/young_modulus") != recipe.young_modulus ||
+      archive.read_double("recipe/flow_time") != recipe.flow_time)
+    throw dem::RunError(path.string() + " was made in another way");
+  auto hourglass = dem::read_simulation(archive, parameters_of(recipe));
+  const FlowFigures figures = figures_after_step(*hourglass);
+  const auto agrees = [&](const char *name, const double value)
+  {
+    const double stored = archive.read_double(name);
+    return std::abs(value - stored) <= 0.01 * std::abs(stored);
+  };
+  if (!agrees("figures/coordination_number", figures.coordination_number) ||
+      !agrees("figures/mean_speed", figures.mean_speed))
+    throw dem::RunError(path.string() + " does not give back the flow that was stored");
+  return hourglass;
+}
+
+void write_hourglass(const std::filesystem::path &path, const HourglassRecipe &recipe, const dem::Simulation &hourglass)
+{
+  const FlowFigures figures = figures_after_step(hourglass);
+  dem::ArchiveWriter archive(path, archive_kind);
+  archive.write("recipe/route", route);
+  archive.write("recipe/n_grains", recipe.n_grains);
+  archive.write("recipe/neck_radius", recipe.neck_radius);
+  archive.write("recipe/young_modulus", recipe.young_modulus);
+  archive.write("recipe/flow_time", recipe.flow_time);
+  archive.write("figures/coordination_number", figures.coordination_number);
+  archive.write("figures/mean_speed", figures.mean_speed);
+  dem::write_simulation(archive, hourglass);
+  archive.commit();
+}
+
 } // namespace
 
 FlowFigures flow_figures(const dem::Simulation &simulation)
@@ -117,14 +179,7 @@ std::unique_ptr<dem::Simulation> flowing_hourglass(const HourglassRecipe &recipe
   const double bottom = -shape.cone_height();
   add_walls(particles, shape, bottom);
 
-  dem::SimulationParameters parameters;
-  parameters.grain.young_modulus = parameters.wall.young_modulus = recipe.young_modulus;
-  parameters.wall_friction = parameters.friction;
-  parameters.gravity = Vec3(0., 0., -9.81);
-  parameters.damping_ratio = 0.5;
-  parameters.verlet_distance = 0.2;
-  // A tenth of the period of the smallest grain on a stiff contact, checked below.
-  parameters.time_step = 8e-6 * std::sqrt(1e7 / recipe.young_modulus);
+  const dem::SimulationParameters parameters = parameters_of(recipe);
   auto simulation = std::make_unique<dem::Simulation>(
       parameters, std::move(particles), std::vector<dem::PlaneWall>{{Vec3(0., 0., bottom), Vec3::UnitZ()}});
 
@@ -143,6 +198,28 @@ std::unique_ptr<dem::Simulation> flowing_hourglass(const HourglassRecipe &recipe
     }
   }
   return simulation;
+}
+
+std::unique_ptr<dem::Simulation> cached_hourglass(const std::filesystem::path &folder, const HourglassRecipe &recipe,
+                                                  const std::function<void(const std::string &)> &log)
+{
+  const std::filesystem::path path = folder / ("hourglass_" + std::to_string(recipe.n_grains) + ".h5");
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored))
+    try
+    {
+      auto hourglass = read_hourglass(path, recipe);
+      log("hourglass read from " + path.string());
+      return hourglass;
+    }
+    catch (const dem::RunError &error)
+    {
+      log(std::string("hourglass made anew, because ") + error.what());
+    }
+  auto hourglass = flowing_hourglass(recipe, log);
+  write_hourglass(path, recipe, *hourglass);
+  log("hourglass kept in " + path.string());
+  return hourglass;
 }
 
 } // namespace bergamo::benchmark

@@ -2,6 +2,7 @@
 
 #include "dem/simulation.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -35,5 +36,10 @@ FlowFigures flow_figures(const dem::Simulation &simulation);
 /// @param log is given a line now and then
 std::unique_ptr<dem::Simulation> flowing_hourglass(const HourglassRecipe &recipe,
                                                    const std::function<void(const std::string &)> &log);
+
+/// The same from a folder, or made and then kept there. A file that this version cannot read, or that does not give
+/// back the flow it was written in, is replaced. @throws RunError if the folder cannot be written to
+std::unique_ptr<dem::Simulation> cached_hourglass(const std::filesystem::path &folder, const HourglassRecipe &recipe,
+                                                  const std::function<void(const std::string &)> &log);
 
 } // namespace bergamo::benchmark

@@ -36,6 +36,29 @@ struct Options
 /// Wellmann, fig. 3.17: the hourglass of 1e5 superquadrics while it flows.
 const std::map<int, double> dissertation{{2, 0.94}, {4, 0.84}, {8, 0.65}};
 
+/// Time a step of each phase on each number of threads, and its efficiency, over all rounds: where threads wait.
+/// @param phases of all rounds by number of threads
+nlohmann::json compare_phases(const std::map<int, std::vector<Phase>> &phases, const int n_steps)
+{
+  const std::vector<Phase> &alone = phases.at(1);
+  nlohmann::json rows = nlohmann::json::array();
+  for (const auto &[n, of_n] : phases)
+  {
+    std::cout << "ms a step (efficiency) on " << n << " threads:" << std::fixed;
+    for (std::size_t k = 0; k < of_n.size(); ++k)
+    {
+      const double ms = 1e3 * of_n[k].seconds / n_steps, efficiency = alone[k].seconds / (n * of_n[k].seconds);
+      if (!(of_n[k].seconds > 0.))
+        continue;
+      std::cout << ' ' << of_n[k].name << ' ' << std::setprecision(3) << ms << " (" << std::setprecision(2)
+                << efficiency << ')';
+      rows.push_back({{"threads", n}, {"phase", of_n[k].name}, {"ms_per_step", ms}, {"efficiency", efficiency}});
+    }
+    std::cout << '\n';
+  }
+  return rows;
+}
+
 /// Steps on 1, 2, ... threads in turn, for a short while each, so that whatever else the machine does meets them alike;
 /// an efficiency compares two of one round.
 nlohmann::json measure_efficiency(dem::Simulation &simulation, Options options)
@@ -45,12 +68,16 @@ nlohmann::json measure_efficiency(dem::Simulation &simulation, Options options)
   if (options.n_repeats == 0)
     options.n_repeats = 31;
   std::map<int, std::vector<double>> speed, efficiency;
+  std::map<int, std::vector<Phase>> phases;
   for (int round = 0; round < options.n_repeats; ++round)
     for (int n = 1; n <= options.n_threads; n = n < 4 ? n + 1 : 2 * n)
     {
       omp_set_num_threads(n);
-      const double seconds = time_further_steps(simulation, options.n_steps);
-      speed[n].push_back(simulation.particles.size() * options.n_steps / seconds);
+      const FurtherSteps steps = time_further_steps(simulation, options.n_steps);
+      speed[n].push_back(simulation.particles.size() * options.n_steps / steps.seconds);
+      phases[n].resize(steps.phases.size());
+      for (std::size_t k = 0; k < steps.phases.size(); ++k)
+        phases[n][k] = {steps.phases[k].name, phases[n][k].seconds + steps.phases[k].seconds};
       efficiency[n].push_back(speed[n].back() / (n * speed[1].back()));
     }
   nlohmann::json rows = nlohmann::json::array();
@@ -68,7 +95,7 @@ nlohmann::json measure_efficiency(dem::Simulation &simulation, Options options)
                     {"particle_steps_per_second", v.median},
                     {"efficiency", {{"least", s.least}, {"median", s.median}, {"most", s.most}}}});
   }
-  return rows;
+  return {{"rows", rows}, {"phases", compare_phases(phases, options.n_steps * options.n_repeats)}};
 }
 
 nlohmann::json dense(Options options)
@@ -89,7 +116,7 @@ nlohmann::json flowing(Options options)
   if (options.n_grains != 0)
     recipe.n_grains = options.n_grains;
   omp_set_num_threads(options.n_threads);
-  const auto hourglass = flowing_hourglass(recipe, log_line);
+  const auto hourglass = cached_hourglass(options.cache, recipe, log_line);
   const FlowFigures f = flow_figures(*hourglass);
   std::cout << "flowing hourglass: " << f.n_grains << " superquadrics and " << f.n_wall_spheres << " fixed spheres, "
             << f.coordination_number << " contacts a grain, mean speed " << f.mean_speed << " m/s\n";
@@ -133,7 +160,7 @@ nlohmann::json size(Options options)
                     {"ns_per_grain_and_step", {{"least", s.least}, {"median", s.median}, {"most", s.most}}},
                     {"bytes_per_grain", bytes}});
   }
-  return rows;
+  return {{"rows", rows}};
 }
 
 std::optional<Options> parse(const int argc, char **const argv)
@@ -160,10 +187,11 @@ std::optional<Options> parse(const int argc, char **const argv)
 
 nlohmann::json measure(const Options &options)
 {
-  const nlohmann::json rows = options.study == "dense"     ? dense(options)
-                              : options.study == "flowing" ? flowing(options)
-                                                           : size(options);
-  return {{"study", options.study}, {"rows", rows}};
+  nlohmann::json figures = options.study == "dense"     ? dense(options)
+                           : options.study == "flowing" ? flowing(options)
+                                                        : size(options);
+  figures["study"] = options.study;
+  return figures;
 }
 
 } // namespace

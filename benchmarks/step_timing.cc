@@ -31,15 +31,20 @@ StepTiming time_steps(const dem::Simulation &packing, const int n_steps)
   return timing;
 }
 
-double time_further_steps(dem::Simulation &simulation, const int n_steps)
+FurtherSteps time_further_steps(dem::Simulation &simulation, const int n_steps)
 {
   constexpr int n_first = 3;
   for (int n = 0; n < n_first; ++n)
     simulation.step();
+  const std::vector<Phase> before = phase_times(simulation);
   const auto start = std::chrono::steady_clock::now();
   for (int n = 0; n < n_steps; ++n)
     simulation.step();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  FurtherSteps steps{std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+                     phase_times(simulation)};
+  for (std::size_t k = 0; k < before.size(); ++k)
+    steps.phases[k].seconds -= before[k].seconds;
+  return steps;
 }
 
 Spread spread(std::vector<double> values)

@@ -20,8 +20,13 @@ struct StepTiming
 /// Steps a copy of a packing; the packing itself stays as it is.
 StepTiming time_steps(const dem::Simulation &packing, int n_steps);
 
-/// Seconds that further steps take, after some that bring the data to the cores that will work on it.
-double time_further_steps(dem::Simulation &simulation, int n_steps);
+/// Further steps after some that bring the data to the cores that will work on it.
+struct FurtherSteps
+{
+  double seconds = 0.; ///< wall clock
+  std::vector<Phase> phases;
+};
+FurtherSteps time_further_steps(dem::Simulation &simulation, int n_steps);
 
 /// Least, middle and largest of some values.
 struct Spread

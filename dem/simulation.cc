@@ -419,11 +419,17 @@ double Simulation::stable_time_step() const
 
 void Simulation::check_finite() const
 {
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
-        !particles.angular_momentum[i].allFinite() || !particles.angular_velocity[i].allFinite() ||
-        !particles.orientation[i].coeffs().allFinite())
-      throw_diverged(i, "whose state is not finite");
+  Collected<std::size_t> diverged;
+  parallel_ranges(particles.size(), 256,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t i = begin; i < end; ++i)
+                      if (!particles.position[i].allFinite() || !particles.velocity[i].allFinite() ||
+                          !particles.angular_momentum[i].allFinite() || !particles.angular_velocity[i].allFinite() ||
+                          !particles.orientation[i].coeffs().allFinite())
+                        diverged.of(part).push_back(i);
+                  });
+  diverged.for_each([&](const std::size_t i) { throw_diverged(i, "whose state is not finite"); });
 }
 
 void Simulation::report_divergence() const
