@@ -38,6 +38,7 @@ void CellLoading::begin(Simulation &simulation)
   SimulationParameters parameters = simulation.parameters();
   parameters.friction = s.friction;
   parameters.time_step = s.time_step;
+  parameters.contact.overlap_tolerance = s.overlap_tolerance;
   simulation.change(parameters);
   follow_stable_step(simulation);
   now = {};
@@ -54,7 +55,8 @@ void CellLoading::resume(const State &state)
 
 void CellLoading::prepare(Simulation &simulation)
 {
-  constexpr std::int64_t step_interval = 5000;
+  // Where the pressure rises, contacts grow stiffer fast.
+  const std::int64_t step_interval = s.is_strained() ? 5000 : 500;
   if (simulation.n_steps % step_interval == 0)
     follow_stable_step(simulation);
   simulation.compute_forces();
@@ -96,12 +98,18 @@ void CellLoading::check_rest(Simulation &simulation, const Vec3 &stress)
   now.n_checks_passed = holds && unbalanced_force(simulation) < s.force_tolerance ? now.n_checks_passed + 1. : 0.;
 }
 
-/// Contacts grow stiffer under pressure: the time step stays a fifth below the stable one.
+/// Contacts grow stiffer under pressure, as its cube root (Hertz): the time step stays a fifth below the stable one, also
+/// of the pressure to come.
 void CellLoading::follow_stable_step(Simulation &simulation) const
 {
   constexpr double margin = 0.8, least_change = 0.02;
   SimulationParameters parameters = simulation.parameters();
-  const double step = std::min(s.time_step, margin * simulation.stable_time_step());
+  double step = margin * simulation.stable_time_step();
+  const double present = -simulation.cell_stress().mean();
+  const double to_come = s.path == LoadingPath::true_triaxial ? s.stresses.maxCoeff() : s.pressure;
+  if (!s.is_strained() && present > 0.)
+    step *= std::min(1., std::pow(present / to_come, 1. / 6.));
+  step = std::min(step, s.time_step);
   if (std::abs(step - parameters.time_step) < least_change * parameters.time_step)
     return;
   parameters.time_step = step;

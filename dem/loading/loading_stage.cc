@@ -23,6 +23,7 @@ void LoadingStage::validate() const
   require(n_cycles >= 0 && n_cycles <= 1000000, "number of cycles", n_cycles, "in [0, 1000000]");
   require(n_cycles == 0 || std::abs(axial_strain) < 0.5, "axial strain of a cycle", axial_strain, "in (-0.5, 0.5)");
   require(time_step > 0. && std::isfinite(time_step), "time step", time_step, "positive [s]");
+  require(overlap_tolerance >= 0. && overlap_tolerance <= 0.1, "overlap tolerance", overlap_tolerance, "in [0, 0.1]");
   require(stress_tolerance > 0. && stress_tolerance < 1., "stress tolerance", stress_tolerance, "in (0, 1)");
   require(force_tolerance > 0. && force_tolerance < 1., "force tolerance", force_tolerance, "in (0, 1)");
   require(longest_time > 0. && std::isfinite(longest_time), "longest time of the stage", longest_time, "positive [s]");

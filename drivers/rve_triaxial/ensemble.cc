@@ -229,8 +229,11 @@ Summary Ensemble::summary() const
     ratio.push_back(f.final_stress_ratio);
     run.steps += f.n_steps;
     run.particles += f.n_particles;
-    run.time_step_s = std::max(run.time_step_s, f.time_step);
-    run.stable_time_step_s = std::min(run.stable_time_step_s, f.smallest_stable_step);
+    if (f.time_step / f.stable_step >= run.time_step_s / run.stable_time_step_s)
+    {
+      run.time_step_s = f.time_step;
+      run.stable_time_step_s = f.stable_step;
+    }
     run.energy_residual = std::max(run.energy_residual, f.energy_residual);
     run.undecided_contacts += f.n_undecided;
     run.max_overlap_over_radius = std::max(run.max_overlap_over_radius, f.largest_overlap);

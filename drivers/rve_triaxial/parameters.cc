@@ -2,6 +2,9 @@
 
 #include "dem/core/error.h"
 
+#include <algorithm>
+#include <cmath>
+#include <random>
 #include <utility>
 
 namespace bergamo::driver
@@ -13,6 +16,7 @@ RveParameters::RveParameters()
 {
   generation.pressure = 1e3;
   generation.inertial_number = 1e-2;
+  generation.overlap_tolerance = 5e-2; // light contacts of grains that jostle one another
   for (StageSettings &s : stages)
     s.stage.pressure = 0.;
   stages[1].stage.inertial_number = 1e-4;
@@ -31,6 +35,9 @@ void declare_end(ParameterFile &file, const std::string &section, dem::LoadingSt
   file.add(section, "inertial number", stage.inertial_number, "of the strain rate",
            {.lowest = 0, .highest = 0.1, .lowest_included = false});
   file.add(section, "time step", stage.time_step, "at most, and a fifth below the stable one [s]", Range::positive());
+  file.add(section, "overlap tolerance", stage.overlap_tolerance,
+           "relative error of the overlap that may build up between two searches of a contact; 0 searches every step",
+           Range::between(0, 0.1));
   file.add(section, "stress tolerance", stage.stress_tolerance, "over the pressure", Range::strictly_between(0, 1));
   file.add(section, "force tolerance", stage.force_tolerance, "mean unbalanced over mean contact force at the end",
            Range::strictly_between(0, 1));
@@ -94,9 +101,6 @@ void RveParameters::declare(ParameterFile &file)
   file.add("Grains", "density", simulation.grain.density, "of the mineral [kg/m3]", Range::positive());
   file.add("Grains", "damping ratio", simulation.damping_ratio, "dashpot at the contacts, share of critical damping",
            Range::between(0, 10));
-  file.add("Grains", "overlap tolerance", simulation.contact.overlap_tolerance,
-           "relative error of the overlap that may build up between two searches of a contact; 0 searches every step",
-           Range::between(0, 0.1));
   file.add("Grains", "curvature bound", simulation.contact.curvature_bound,
            "k: radii of curvature at contacts lie in [k r_min, r_max / k], r the half-axes of the grain",
            {.lowest = 0, .highest = 1, .lowest_included = false});
@@ -172,8 +176,32 @@ void RveParameters::validate() const
       fail("Stage " + std::to_string(k + 1) + "/path is none, but stage " + std::to_string(k + 2) +
            " is not: stages follow one another without a gap");
   for (const SampleSettings &sample : samples())
+  {
     for (const dem::LoadingStage &stage : program(sample))
       stage.validate();
+    require_room(sample);
+  }
+}
+
+/// The cell must stay two ranges of contacts wide when the packing is as dense as packings get.
+void RveParameters::require_room(const SampleSettings &sample) const
+{
+  constexpr double densest = 0.74;
+  std::mt19937_64 generator(sample.seed);
+  double largest = 0., mean = 0.;
+  const auto grains = dem::draw_grains(grading(), packing_solid_fraction * std::pow(sample.edge, 3), generator);
+  for (const dem::Superquadric &grain : grains)
+  {
+    const double radius = dem::bounding_radius(grain);
+    largest = std::max(largest, radius);
+    mean += radius / static_cast<double>(grains.size());
+  }
+  const double shrinking = std::cbrt(std::min(1., packing_solid_fraction / densest));
+  const double least = 2. * (2. * largest + simulation.verlet_distance * mean) / shrinking;
+  if (grains.empty() || sample.edge < least)
+    throw dem::ConfigError("Ensemble/edges: a cell of " + std::to_string(sample.edge) +
+                           " m is too small for its grains, which would touch one another twice; it needs " +
+                           std::to_string(least) + " m at least: make it larger or the grains smaller");
 }
 
 dem::Grading RveParameters::grading() const

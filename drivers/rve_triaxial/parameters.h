@@ -87,6 +87,8 @@ struct RveParameters
   std::vector<dem::LoadingStage> program(const SampleSettings &sample) const;
 
 private:
+  void require_room(const SampleSettings &sample) const;
+
   std::array<std::string, max_stages> path_names;
 };
 

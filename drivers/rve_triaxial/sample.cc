@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 namespace bergamo::driver
@@ -96,7 +95,7 @@ std::vector<double> SampleFigures::values() const
           final_stress_ratio,
           energy_residual,
           largest_overlap,
-          smallest_stable_step,
+          stable_step,
           time_step,
           static_cast<double>(n_undecided),
           wall_time};
@@ -114,7 +113,7 @@ SampleFigures SampleFigures::from(const std::vector<double> &v)
   f.final_stress_ratio = v.at(6);
   f.energy_residual = v.at(7);
   f.largest_overlap = v.at(8);
-  f.smallest_stable_step = v.at(9);
+  f.stable_step = v.at(9);
   f.time_step = v.at(10);
   f.n_undecided = static_cast<std::int64_t>(v.at(11));
   f.wall_time = v.at(12);
@@ -160,7 +159,6 @@ bool SampleRun::run()
   }
   f.n_steps = simulation->n_steps;
   f.n_undecided = simulation->pairs.n_undecided;
-  f.time_step = simulation->parameters().time_step;
   f.wall_time = wall_time_before + std::chrono::duration<double>(Clock::now() - start).count();
   progress.fraction = 1.;
   return true;
@@ -185,7 +183,6 @@ void SampleRun::begin()
   p.time_step = program[0].time_step;
   simulation = std::make_unique<dem::Simulation>(p, std::move(packed.particles), std::vector<dem::PlaneWall>{});
   f.n_particles = static_cast<std::int64_t>(simulation->particles.size());
-  f.smallest_stable_step = std::numeric_limits<double>::infinity();
   grain = dem::mean_grain(simulation->particles);
   solid_volume = dem::solid_volume(simulation->particles);
   history.emplace(folder / "history.csv", columns);
@@ -307,7 +304,12 @@ void SampleRun::record_distributions(const double time)
 {
   const std::vector<dem::TouchingContact> contacts = simulation->pairs.touching(simulation->particles);
   distributions->append(distribution_row(time, stage, contacts, simulation->parameters().friction));
-  f.smallest_stable_step = std::min(f.smallest_stable_step, simulation->stable_time_step());
+  const double stable = simulation->stable_time_step(), used = simulation->parameters().time_step;
+  if (used / stable >= f.time_step / f.stable_step)
+  {
+    f.stable_step = stable;
+    f.time_step = used;
+  }
   const dem::LoadingStage &s = loading->stage();
   const double spacing = std::abs(s.axial_strain) / parameters.n_distributions;
   const double step = loading->rate() * simulation->parameters().time_step;
@@ -355,10 +357,12 @@ void SampleRun::read_snapshot()
     throw dem::ConfigError("the snapshot " + (folder / "snapshot.h5").string() +
                            " belongs to other parameters; restart with those of the run, or start anew in another "
                            "folder");
-  simulation = dem::read_simulation(archive, parameters.simulation);
+  stage = archive.read_integer("stage");
+  dem::SimulationParameters p = parameters.simulation;
+  p.contact.overlap_tolerance = program.at(stage).overlap_tolerance;
+  simulation = dem::read_simulation(archive, p);
   f = SampleFigures::from(archive.read_doubles("figures"));
   wall_time_before = f.wall_time;
-  stage = archive.read_integer("stage");
   next_row = archive.read_integer("next_row");
   next_distribution = archive.read_integer("next_distribution");
   first_balance = archive.read_double("first_balance");

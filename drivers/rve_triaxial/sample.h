@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,10 +23,11 @@ struct SampleFigures
   double solid_fraction = 0.;           ///< when the last stage began
   double coordination_number = 0.;      ///< then
   double final_solid_fraction = 0.;
-  double final_stress_ratio = 0.;                   ///< sigma_zz over the mean of the others, at the end
-  double energy_residual = 0.;                      ///< largest miss of the balance over the work done by the cell
-  double largest_overlap = 0.;                      ///< over the smaller bounding radius
-  double smallest_stable_step = 0., time_step = 0.; ///< [s]
+  double final_stress_ratio = 0.; ///< sigma_zz over the mean of the others, at the end
+  double energy_residual = 0.;    ///< largest miss of the balance over the work done by the cell
+  double largest_overlap = 0.;    ///< over the smaller bounding radius
+  double stable_step = std::numeric_limits<double>::infinity(); ///< [s], and the step used then,
+  double time_step = 0.;                                        ///< where they came nearest to one another
   std::int64_t n_undecided = 0;
   double wall_time = 0.; ///< [s]
 

@@ -1,6 +1,6 @@
 #include "dem/core/error.h"
 #include "dem/io/snapshot.h"
-#include "dem/packing/distribution.h"
+#include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "dem/periodic/cell_control.h"
 #include "dem/simulation.h"
@@ -38,7 +38,7 @@ Particles loose_grains(const double edge, const double solid_fraction)
   std::mt19937_64 generator(7);
   const Box box{Vec3::Zero(), Vec3::Constant(edge)};
   const auto grains = draw_grains(GrainDistribution(), solid_fraction * box.volume(), generator);
-  Particles particles = add_at_random(grains, box, 2650., generator);
+  Particles particles = add_at_random(grains, box, 2650., 7);
   particles.cell = PeriodicCell(Vec3::Constant(edge));
   return particles;
 }
