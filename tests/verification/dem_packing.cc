@@ -197,7 +197,7 @@ TEST_CASE("too dense an addition is refused with the solid fraction that was rea
   std::mt19937_64 generator(1);
   CHECK_THROWS_AS(add_at_random(grains, Box{Vec3::Zero(), Vec3::Ones()}, 1000., generator()), ConfigError);
   CHECK_THROWS_WITH(add_at_random(grains, Box{Vec3::Zero(), Vec3::Ones()}, 1000., generator()),
-                    Catch::Contains("3 of 4 grains") && Catch::Contains("0.26808") && Catch::Contains("larger box"));
+                    Catch::Contains("3 of 4 grains") && Catch::Contains("0.26808") && Catch::Contains("larger space"));
 }
 
 TEST_CASE("a packing compressed to 1 kPa rests there")
