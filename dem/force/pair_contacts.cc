@@ -115,6 +115,95 @@ PairContacts::Screened PairContacts::screen(const Particles &p)
   return screened;
 }
 
+/// A contact that a search found and that did not touch last step.
+struct PairContacts::NewContact
+{
+  ContactSearch search;
+  ContactState<double> state;
+};
+
+/// What searches change, in their order; contacts that stay are in their slots, their loads in due_loads.
+struct PairContacts::Found
+{
+  Collected<ContactSearch> ended;
+  Collected<NewContact> begun;
+};
+
+/// Searches the contacts that are due, and then the candidates among the pairs apart.
+PairContacts::Found PairContacts::search(const std::vector<std::int32_t> &due_slots,
+                                         const std::vector<std::int32_t> &candidates, const SearchContext &context)
+{
+  const Particles &p = context.particles;
+  const std::size_t n = due_slots.size() + candidates.size(), n_packs = (n + pack_width - 1) / pack_width;
+  const auto search_of = [&](const std::size_t k) -> ContactSearch
+  {
+    if (k < due_slots.size())
+    {
+      const std::int32_t s = due_slots[k];
+      return {grains.pair[s], grains.first[s], grains.second[s], grains.image[s], s};
+    }
+    const std::int32_t pair = candidates[k - due_slots.size()];
+    return {pair, list.first[pair], list.second[pair], list.image[pair], apart};
+  };
+  due_loads.resize(due_slots.size());
+  Found found;
+  Collected<std::int64_t> undecided;
+  std::vector<ContactLosses> pack_losses(n_packs);
+  parallel_ranges(n_packs, 1,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    std::vector<ContactSearch> searches;
+                    std::vector<BegunContact> begun;
+                    for (std::size_t pack = begin; pack < end; ++pack)
+                    {
+                      const std::size_t from = pack * pack_width, to = std::min(from + pack_width, n);
+                      searches.clear();
+                      begun.clear();
+                      for (std::size_t k = from; k < to; ++k)
+                        searches.push_back(search_of(k));
+                      search_contacts(searches, 0, to - from, context, pack_losses[pack], begun);
+                      for (std::size_t k = from; k < to; ++k)
+                      {
+                        const ContactSearch &s = searches[k - from];
+                        if (s.is_undecided)
+                          undecided.of(part).push_back(s.pair);
+                        if (k < due_slots.size())
+                          due_loads[k] = {s.resultant, s.is_touching};
+                        if (s.is_touching)
+                          continue;
+                        rest_until[s.pair] = p.motion[s.first] + p.motion[s.second] + p.cell.motion + s.gap;
+                        if (s.slot != apart)
+                          found.ended.of(part).push_back(s);
+                      }
+                      for (const BegunContact &c : begun)
+                        found.begun.of(part).push_back({searches[c.search], c.state});
+                    }
+                  });
+  for (const ContactLosses &lost : pack_losses)
+    losses += lost;
+  n_searches += static_cast<std::int64_t>(n);
+  undecided.for_each([&](const std::int64_t) { ++n_undecided; });
+  return found;
+}
+
+/// Adds what the searches of due contacts that stay have given, each chunk by one thread. @param due_slots ascending
+void PairContacts::add_due_loads(const Particles &p, const std::vector<std::int32_t> &due_slots)
+{
+  const auto first_of_chunk = [&](const std::size_t chunk)
+  {
+    return std::lower_bound(due_slots.begin(), due_slots.end(), static_cast<std::int32_t>(chunk * slots_per_chunk)) -
+           due_slots.begin();
+  };
+  parallel_ranges(grains.n_chunks(), 1,
+                  [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    const auto last = first_of_chunk(end);
+                    for (auto k = first_of_chunk(begin); k < last; ++k)
+                      if (due_loads[k].is_touching)
+                        add_load_of(p, grains.pair[due_slots[k]], due_loads[k].resultant);
+                  });
+}
+
 void PairContacts::compute(const Particles &p, const ContactLaw &law, const ContactParameters &parameters,
                            const double time_step, PhaseTimes &times)
 {
@@ -136,55 +225,26 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
   watch.lap(times.screening);
 
   // 3. Searches.
-  std::vector<ContactSearch> searches;
-  due.for_each(
-      [&](const std::int32_t s) {
-        searches.push_back({grains.pair[s], grains.first[s], grains.second[s], grains.image[s], s});
-      });
-  screened.candidates.for_each(
-      [&](const std::int32_t pair) {
-        searches.push_back({pair, list.first[pair], list.second[pair], list.image[pair], apart});
-      });
-  const std::size_t n_packs = (searches.size() + pack_width - 1) / pack_width;
-  std::vector<ContactLosses> pack_losses(n_packs);
-  Collected<BegunContact> begun;
-  const SearchContext context{p, law, parameters, time_step, grains, separating_direction};
-  parallel_ranges(n_packs, 1,
-                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
-                  {
-                    for (std::size_t pack = begin; pack < end; ++pack)
-                    {
-                      const std::size_t from = pack * pack_width, to = std::min(from + pack_width, searches.size());
-                      search_contacts(searches, from, to, context, pack_losses[pack], begun.of(part));
-                    }
-                  });
-  for (const ContactLosses &lost : pack_losses)
-    losses += lost;
-  n_searches += static_cast<std::int64_t>(searches.size());
+  const std::vector<std::int32_t> due_slots = due.all();
+  const Found found =
+      search(due_slots, screened.candidates.all(), {p, law, parameters, time_step, grains, separating_direction});
 
   // Contacts that began or ended take and leave their slots one by one.
-  for (const ContactSearch &s : searches)
-  {
-    n_undecided += s.is_undecided;
-    if (s.is_touching)
-      continue;
-    const double rest = p.motion[s.first] + p.motion[s.second] + p.cell.motion + s.gap;
-    if (s.slot != apart)
-    {
-      const ContactState<double> state = grains.get(s.slot);
-      const PairMotion<double> motion = motion_of(p, {s.first, s.second, s.image}, time_step);
-      losses += separate(state, state.normal, motion.displacement(state.point));
-      grains.remove(s.slot);
-      slot[s.pair] = apart;
-    }
-    rest_until[s.pair] = rest;
-  }
-  begun.for_each(
-      [&](const BegunContact &c)
+  found.ended.for_each(
+      [&](const ContactSearch &s)
       {
-        ContactSearch &s = searches[c.search];
-        s.slot = slot[s.pair] = grains.add({s.pair, s.first, s.second, s.image}, c.state, slot_near(s.pair));
-        grain_loads.take(s.slot, s.first, s.second);
+        const ContactState<double> state = grains.get(s.slot);
+        const PairMotion<double> motion = motion_of(p, {s.first, s.second, s.image}, time_step);
+        losses += separate(state, state.normal, motion.displacement(state.point));
+        grains.remove(s.slot);
+        slot[s.pair] = apart;
+      });
+  found.begun.for_each(
+      [&](const NewContact &c)
+      {
+        const ContactSearch &s = c.search;
+        slot[s.pair] = grains.add({s.pair, s.first, s.second, s.image}, c.state, slot_near(s.pair));
+        grain_loads.take(slot[s.pair], s.first, s.second);
         rest_until[s.pair] = infinity;
       });
   ended_spheres.for_each(
@@ -212,9 +272,8 @@ void PairContacts::compute(const Particles &p, const ContactLaw &law, const Cont
       });
 
   list_bodies(p.size());
-  for (const ContactSearch &s : searches)
-    if (s.is_touching)
-      add_load_of(p, s.pair, s.resultant);
+  add_due_loads(p, due_slots);
+  found.begun.for_each([&](const NewContact &c) { add_load_of(p, c.search.pair, c.search.resultant); });
   for (const NewSphereContact &s : new_spheres)
     add_load_of(p, s.pair, s.resultant);
   watch.lap(times.searches);

@@ -14,6 +14,8 @@
 namespace bergamo::dem
 {
 
+struct SearchContext;
+
 /// One touching contact as a reader sees it.
 struct TouchingContact
 {
@@ -88,13 +90,24 @@ struct PairContacts
 
 private:
   struct Screened;
+  struct NewContact;
+  struct Found;
+  struct DueLoad
+  {
+    Resultant resultant;
+    bool is_touching = false;
+  };
 
+  Found search(const std::vector<std::int32_t> &due_slots, const std::vector<std::int32_t> &candidates,
+               const SearchContext &context);
+  void add_due_loads(const Particles &particles, const std::vector<std::int32_t> &due_slots);
   Screened screen(const Particles &particles);
   std::int32_t slot_near(std::int32_t pair) const;
   void list_bodies(std::size_t n_grains);
   void add_load_of(const Particles &particles, std::int32_t pair, const Resultant &resultant);
 
   LoadSums grain_loads, sphere_loads;
+  std::vector<DueLoad> due_loads; // of one step; kept for its memory alone
 };
 
 } // namespace bergamo::dem

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace bergamo::dem
 {
@@ -12,11 +13,24 @@ namespace bergamo::dem
 CellGrid::CellGrid(const std::span<const Vec3> positions, double cell_size, const PeriodicCell &period)
 {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
-  for (const Vec3 &x : positions)
-  {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
+  Collected<std::pair<Vec3, Vec3>> bounds;
+  parallel_ranges(positions.size(), 1024,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    Vec3 least = low, most = high;
+                    for (std::size_t i = begin; i < end; ++i)
+                    {
+                      least = least.cwiseMin(positions[i]);
+                      most = most.cwiseMax(positions[i]);
+                    }
+                    bounds.of(part).emplace_back(least, most);
+                  });
+  bounds.for_each(
+      [&](const std::pair<Vec3, Vec3> &b)
+      {
+        low = low.cwiseMin(b.first);
+        high = high.cwiseMax(b.second);
+      });
   Vec3 extent = positions.empty() ? Vec3::Zero() : Vec3(high - low);
   if (period.is_periodic())
   {
