@@ -181,24 +181,7 @@ Pose<Pack> gather(const std::vector<MadePair> &pairs, const std::size_t begin, B
 {
   const auto pose = [&](const int lane) -> const BodyPose &
   { return pairs[std::min(begin + lane, pairs.size() - 1)].*body; };
-  Pose<Pack> packed = in_every_lane(pose(0));
-  const auto load = [&](const auto &number)
-  { return math::generate<Pack>([&](const int lane) -> double { return number(pose(lane)); }); };
-  SupportShape<Pack> &s = packed.shape;
-  s.r1 = load([](const BodyPose &b) { return b.shape.r1; });
-  s.r2 = load([](const BodyPose &b) { return b.shape.r2; });
-  s.r3 = load([](const BodyPose &b) { return b.shape.r3; });
-  s.q1 = load([](const BodyPose &b) { return b.shape.q1; });
-  s.q2 = load([](const BodyPose &b) { return b.shape.q2; });
-  s.q2_over_q1 = load([](const BodyPose &b) { return b.shape.q2_over_q1; });
-  s.one_over_q2 = load([](const BodyPose &b) { return b.shape.one_over_q2; });
-  for (int i = 0; i < 3; ++i)
-  {
-    packed.position[i] = load([i](const BodyPose &b) { return b.position[i]; });
-    for (int j = 0; j < 3; ++j)
-      packed.rotation(i, j) = load([i, j](const BodyPose &b) { return b.rotation(i, j); });
-  }
-  return packed;
+  return gather_poses(pose);
 }
 
 Tally search_in_packs(const std::vector<MadePair> &pairs)

@@ -121,17 +121,7 @@ void Simulation::return_to_cell()
     throw RunError("the periodic cell has shrunk to an edge of " + std::to_string(cell.edges.minCoeff()) +
                    " m at time " + std::to_string(time) + " s, less than two ranges of contacts, " +
                    std::to_string(2. * contact_range()) + " m: begin with a larger cell or load it less");
-  for (std::size_t i = 0; i < particles.size(); ++i)
-  {
-    const Vec3 edges_over = (particles.position[i].array() / cell.edges.array()).floor();
-    if (edges_over == Vec3::Zero())
-      continue;
-    Vec3 &velocity = particles.velocity[i];
-    const double old_square = velocity.squaredNorm();
-    particles.position[i] -= edges_over.cwiseProduct(cell.edges);
-    velocity -= edges_over.cwiseProduct(cell.rate);
-    h.cell_work.sum += 0.5 * particles.weight[i] * particles.mass[i] * (velocity.squaredNorm() - old_square);
-  }
+  h.cell_work.sum += dem::return_to_cell(particles);
 }
 
 void Simulation::rebuild_neighbours()
@@ -243,38 +233,8 @@ void Simulation::compute_forces()
   watch.lap(times.walls);
   sum_contact_forces();
   if (particles.cell.is_periodic())
-    book_cell_work();
+    h.cell_work.book_contacts(particles.cell, pairs.virial().image.cwiseQuotient(particles.cell.edges), p.time_step);
   watch.lap(times.summation);
-}
-
-/// Work of the contacts across the faces of the cell in the last step, by the trapezoidal rule.
-void Simulation::book_cell_work()
-{
-  const Vec3 force = pairs.virial().image.cwiseQuotient(particles.cell.edges);
-  h.cell_work.sum +=
-      h.cell_work.half_kick + 0.5 * p.time_step * (h.cell_work.image_force + force).dot(particles.cell.rate);
-  h.cell_work.half_kick = 0.;
-  h.cell_work.image_force = force;
-}
-
-AccelerationField Simulation::field() const
-{
-  const PeriodicCell &cell = particles.cell;
-  return {p.gravity, cell.is_periodic() ? Vec3(cell.acceleration.cwiseQuotient(cell.edges)) : Vec3(Vec3::Zero())};
-}
-
-/// Power of an acceleration gradient * x on the grains at their present velocities [W].
-/// @param since x are the places so long ago [s]
-double Simulation::power_of(const Vec3 &gradient, const double since) const
-{
-  if (gradient == Vec3::Zero())
-    return 0.;
-  return ordered_sum(particles.size(), 0.,
-                     [&](const std::size_t i)
-                     {
-                       const Vec3 &v = particles.velocity[i], place = particles.position[i] - since * v;
-                       return particles.weight[i] * particles.mass[i] * gradient.cwiseProduct(place).dot(v);
-                     });
 }
 
 void Simulation::sum_contact_forces()
@@ -296,13 +256,13 @@ void Simulation::integrate()
   const double dt = p.time_step;
   if (!particles.external_force.empty() || !h.last_external_force.empty())
     book_external_work();
-  const AccelerationField acting = field();
-  h.cell_work.sum += 0.5 * dt * power_of(acting.gradient);
-  if (!advance(particles, acting, dt))
+  if (particles.cell.is_periodic())
+    h.cell_work.begin_kick(particles, dt);
+  if (!advance(particles, {p.gravity, stretching(particles.cell)}, dt))
     report_divergence();
   if (particles.cell.is_periodic())
   {
-    h.cell_work.half_kick = 0.5 * dt * power_of(acting.gradient, dt);
+    h.cell_work.end_kick(particles, dt);
     particles.cell.advance(dt);
     particles.largest_motion += 0.5 * dt * particles.cell.rate.norm();
   }
@@ -370,7 +330,7 @@ GrainEnergy Simulation::energy() const
 {
   GrainEnergy e;
   const double dt = p.time_step;
-  const AccelerationField acting = field();
+  const AccelerationField acting{p.gravity, stretching(particles.cell)};
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
     if (particles.is_fixed(i))
@@ -408,7 +368,7 @@ GrainEnergy Simulation::energy() const
   for (const PlaneWall &wall : walls)
     e.wall_work += wall.work;
   e.gravity_work = h.start_potential - gravity_potential();
-  e.cell_work = h.cell_work.sum + 0.5 * dt * power_of(acting.gradient);
+  e.cell_work = h.cell_work.at_this_step(particles, dt);
   return e;
 }
 

@@ -3,7 +3,7 @@
 #include "dem/force/pair_contacts.h"
 #include "dem/force/wall_contacts.h"
 #include "dem/measure/energy.h"
-#include "dem/motion/leapfrog.h"
+#include "dem/periodic/cell_work.h"
 #include "dem/state/material.h"
 #include "dem/state/particles.h"
 #include "dem/state/wall.h"
@@ -95,14 +95,6 @@ public:
   std::int64_t n_rebuilds = 0;
   PhaseTimes times;
 
-  /// Work done by the deformation of a periodic cell since the accounts were opened.
-  struct CellWork
-  {
-    double sum = 0.;       ///< [J]
-    double half_kick = 0.; ///< of the last step's change of the rate, of which half belongs to the next step [J]
-    Vec3 image_force = Vec3::Zero(); ///< of the last step, over the faces of the cell [N]
-  };
-
   /// What a restart needs beyond the public state; dem/io/snapshot stores it.
   struct Hidden
   {
@@ -111,10 +103,10 @@ public:
     std::int64_t n_rebuilds_when_sorted = 0;
     std::vector<Vec3> position_when_built;
     std::vector<double> wall_motion_when_built;
-    double start_potential = 0.;          ///< of gravity when the accounts were opened [J]
-    double removed_wall_work = 0.;        ///< done since then by walls that were removed [J]
-    Vec3 edges_when_built = Vec3::Zero(); ///< of the periodic cell [m]
-    CellWork cell_work;
+    double start_potential = 0.;           ///< of gravity when the accounts were opened [J]
+    double removed_wall_work = 0.;         ///< done since then by walls that were removed [J]
+    Vec3 edges_when_built = Vec3::Zero();  ///< of the periodic cell [m]
+    CellWork cell_work;                    ///< since then
     std::vector<double> external_work;     ///< done on each grain since then, or empty [J]
     std::vector<Vec3> last_external_force; ///< [N], or empty
   };
@@ -131,9 +123,6 @@ private:
   void book_external_work();
   void check_cell() const;
   void return_to_cell();
-  void book_cell_work();
-  AccelerationField field() const;
-  double power_of(const Vec3 &gradient, double since = 0.) const;
   void sum_contact_forces();
   [[noreturn]] void report_divergence() const;
   [[noreturn]] void throw_diverged(std::size_t i, const char *trouble) const;

@@ -34,6 +34,30 @@ Pose<To> convert_pose(const Pose<From> &body, const Convert &convert)
 
 } // namespace detail
 
+/// A body of its own in every lane. @param body body(lane): const BodyPose &
+template <class Body>
+Pose<Pack> gather_poses(const Body &body)
+{
+  Pose<Pack> packed = detail::convert_pose<Pack>(body(0), [](const double x) { return Pack(x); });
+  const auto load = [&](const auto &number)
+  { return math::generate<Pack>([&](const int lane) -> double { return number(body(lane)); }); };
+  SupportShape<Pack> &s = packed.shape;
+  s.r1 = load([](const BodyPose &b) { return b.shape.r1; });
+  s.r2 = load([](const BodyPose &b) { return b.shape.r2; });
+  s.r3 = load([](const BodyPose &b) { return b.shape.r3; });
+  s.q1 = load([](const BodyPose &b) { return b.shape.q1; });
+  s.q2 = load([](const BodyPose &b) { return b.shape.q2; });
+  s.q2_over_q1 = load([](const BodyPose &b) { return b.shape.q2_over_q1; });
+  s.one_over_q2 = load([](const BodyPose &b) { return b.shape.one_over_q2; });
+  for (int i = 0; i < 3; ++i)
+  {
+    packed.position[i] = load([i](const BodyPose &b) { return b.position[i]; });
+    for (int j = 0; j < 3; ++j)
+      packed.rotation(i, j) = load([i, j](const BodyPose &b) { return b.rotation(i, j); });
+  }
+  return packed;
+}
+
 /// The same body in every lane.
 inline Pose<Pack> in_every_lane(const BodyPose &body)
 {

@@ -1,5 +1,7 @@
 #include "dem/measure/contact_list.h"
 
+#include <algorithm>
+
 namespace bergamo::dem
 {
 
@@ -22,6 +24,19 @@ Vec3 contact_point(const TouchingContact &contact, const Particles &particles)
 {
   const Vec3 arm = contact.second == no_grain ? contact.branch : Vec3(0.5 * contact.branch + contact.state.point);
   return particles.position[contact.first] + arm;
+}
+
+double largest_relative_overlap(const std::span<const TouchingContact> contacts, const Particles &particles)
+{
+  double largest = 0.;
+  for (const TouchingContact &c : contacts)
+  {
+    double radius = particles.bounding_radius[c.first];
+    if (c.second != no_grain)
+      radius = std::min(radius, particles.bounding_radius[c.second]);
+    largest = std::max(largest, c.state.overlap / radius);
+  }
+  return largest;
 }
 
 } // namespace bergamo::dem

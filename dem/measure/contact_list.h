@@ -3,6 +3,7 @@
 #include "dem/force/pair_contacts.h"
 #include "dem/force/wall_contacts.h"
 
+#include <span>
 #include <vector>
 
 namespace bergamo::dem
@@ -17,6 +18,9 @@ std::vector<TouchingContact> touching_walls(const WallContacts &walls);
 
 /// Place of a contact with a grain or a wall [m]; in a periodic cell beside body 1, maybe outside of the cell.
 Vec3 contact_point(const TouchingContact &contact, const Particles &particles);
+
+/// Largest overlap of any contact over the smaller bounding radius of its grains; 0 without contacts.
+double largest_relative_overlap(std::span<const TouchingContact> contacts, const Particles &particles);
 
 /// Force on body 1 with the contact's weight [N].
 inline Vec3 force_on_body1(const TouchingContact &contact)

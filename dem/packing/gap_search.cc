@@ -6,32 +6,6 @@
 
 namespace bergamo::dem
 {
-namespace
-{
-
-template <class BodyOf>
-Pose<Pack> gather(const BodyOf &body)
-{
-  const auto load = [&](const auto &number)
-  { return math::generate<Pack>([&](const int lane) -> double { return number(body(lane)); }); };
-  const Pack one(1.);
-  Pose<Pack> result{{one, one, one, one, one}, {}, {}};
-  SupportShape<Pack> &s = result.shape;
-  s.r1 = load([](const BodyPose &b) { return b.shape.r1; });
-  s.r2 = load([](const BodyPose &b) { return b.shape.r2; });
-  s.r3 = load([](const BodyPose &b) { return b.shape.r3; });
-  s.q1 = load([](const BodyPose &b) { return b.shape.q1; });
-  s.q2 = load([](const BodyPose &b) { return b.shape.q2; });
-  s.q2_over_q1 = load([](const BodyPose &b) { return b.shape.q2_over_q1; });
-  s.one_over_q2 = load([](const BodyPose &b) { return b.shape.one_over_q2; });
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      result.rotation(i, j) = load([i, j](const BodyPose &b) { return b.rotation(i, j); });
-  return result;
-}
-
-} // namespace
-
 void search_gaps(const std::span<GrainGap *const> pairs, const std::span<const BodyPose> poses,
                  const std::span<const Vec3> centre_lines)
 {
@@ -39,8 +13,8 @@ void search_gaps(const std::span<GrainGap *const> pairs, const std::span<const B
   {
     const int n = static_cast<int>(std::min<std::size_t>(pack_width, pairs.size() - from));
     const auto at = [&](const int lane) { return from + (lane < n ? lane : 0); };
-    Pose<Pack> body1 = gather([&](const int k) -> const BodyPose & { return poses[pairs[at(k)]->first]; }),
-               body2 = gather([&](const int k) -> const BodyPose & { return poses[pairs[at(k)]->second]; });
+    Pose<Pack> body1 = gather_poses([&](const int k) -> const BodyPose & { return poses[pairs[at(k)]->first]; }),
+               body2 = gather_poses([&](const int k) -> const BodyPose & { return poses[pairs[at(k)]->second]; });
     Vector3<Pack> guess;
     for (int d = 0; d < 3; ++d)
     {

@@ -1,6 +1,6 @@
 #include "drivers/common/atomic_file.h"
 #include "drivers/common/driver_main.h"
-#include "drivers/common/plots.h"
+#include "drivers/common/report_run.h"
 #include "drivers/common/run_folder.h"
 #include "drivers/fit_mohr_coulomb/report.h"
 
@@ -45,17 +45,10 @@ int job(const CommandLine &command_line)
   Summary summary;
   summary.set("wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), "s");
   add_figures(summary, fit);
-  summary.write(folder.summary());
+  report_run(summary, folder, command_line,
+             {{"fit_mohr_coulomb.py", {folder.path().string()}}, {"triaxial_ensemble.py", {folder.path().string()}}});
   if (!command_line.quiet)
-    std::cout << summary.table() << "continuum: " << folder.file("continuum.prm").string() << '\n';
-  if (command_line.plots)
-  {
-    const PlotResult plots = make_plots(
-        {{"fit_mohr_coulomb.py", {folder.path().string()}}, {"triaxial_ensemble.py", {folder.path().string()}}});
-    warn(plots.warnings);
-    for (const auto &picture : plots.pictures)
-      std::cout << "picture: " << picture.string() << '\n';
-  }
+    std::cout << "continuum: " << folder.file("continuum.prm").string() << '\n';
   return done;
 }
 

@@ -1,11 +1,8 @@
 #include "drivers/common/driver_main.h"
 #include "drivers/common/parameter_file.h"
-#include "drivers/common/plots.h"
-#include "drivers/common/run_folder.h"
+#include "drivers/common/report_run.h"
 #include "drivers/rve_triaxial/ensemble.h"
 #include "drivers/rve_triaxial/parameters.h"
-
-#include <iostream>
 
 namespace
 {
@@ -25,22 +22,8 @@ int job(const CommandLine &command_line)
   RunFolder folder(command_line);
   Ensemble ensemble(parameters, file.resolved_text(), folder, command_line.restart);
   if (!ensemble.run(command_line.quiet))
-  {
-    std::cout << "stopped; go on with --restart --output " << folder.path().string() << '\n';
-    return stopped_by_user;
-  }
-  const Summary summary = ensemble.summary();
-  summary.write(folder.summary());
-  if (!command_line.quiet)
-    std::cout << summary.table();
-  if (command_line.plots)
-  {
-    const PlotResult plots = make_plots({{"rve_triaxial.py", {folder.path().string()}}});
-    for (const std::string &warning : plots.warnings)
-      std::cerr << "warning: " << warning << '\n';
-    for (const auto &picture : plots.pictures)
-      std::cout << "picture: " << picture.string() << '\n';
-  }
+    return report_stop(folder);
+  report_run(ensemble.summary(), folder, command_line, {{"rve_triaxial.py", {folder.path().string()}}});
   return done;
 }
 

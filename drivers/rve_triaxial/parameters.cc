@@ -1,6 +1,7 @@
 #include "drivers/rve_triaxial/parameters.h"
 
 #include "dem/core/error.h"
+#include "drivers/common/grain_parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,9 +36,7 @@ void declare_end(ParameterFile &file, const std::string &section, dem::LoadingSt
   file.add(section, "inertial number", stage.inertial_number, "of the strain rate",
            {.lowest = 0, .highest = 0.1, .lowest_included = false});
   file.add(section, "time step", stage.time_step, "at most, and a fifth below the stable one [s]", Range::positive());
-  file.add(section, "overlap tolerance", stage.overlap_tolerance,
-           "relative error of the overlap that may build up between two searches of a contact; 0 searches every step",
-           Range::between(0, 0.1));
+  declare_overlap_tolerance(file, section, stage.overlap_tolerance);
   file.add(section, "stress tolerance", stage.stress_tolerance, "over the pressure", Range::strictly_between(0, 1));
   file.add(section, "force tolerance", stage.force_tolerance, "mean unbalanced over mean contact force at the end",
            Range::strictly_between(0, 1));
@@ -73,16 +72,7 @@ void RveParameters::declare(ParameterFile &file)
 
   file.add("Grains", "sizes", size_kind, "which of the three sections below counts",
            {{"gaussian", SizeKind::gaussian}, {"uniform", SizeKind::uniform}, {"sieves", SizeKind::sieves}});
-  file.add("Grains/Gaussian", "mean half-axes", {gaussian.mean_half_axes.data(), 3}, "[m]", Range::positive());
-  file.add("Grains/Gaussian", "relative deviation", gaussian.relative_deviation,
-           "standard deviation of a half-axis over its mean", Range::between(0, 1));
-  file.add("Grains/Gaussian", "smallest half-axis", gaussian.smallest_half_axis, "[m]", Range::positive());
-  file.add("Grains/Gaussian", "largest half-axis", gaussian.largest_half_axis, "[m]", Range::positive());
-  file.add("Grains/Gaussian", "smallest exponent", gaussian.smallest_exponent,
-           "of the uniform distribution; towards 0 a box, 1 an ellipsoid, towards 2 an octahedron",
-           Range::strictly_between(0, 2));
-  file.add("Grains/Gaussian", "largest exponent", gaussian.largest_exponent, "of the uniform distribution",
-           Range::strictly_between(0, 2));
+  declare_distribution(file, "Grains/Gaussian", gaussian);
   file.add("Grains/Uniform", "smallest diameter", uniform.smallest_diameter, "of the sphere of equal volume [m]",
            Range::positive());
   file.add("Grains/Uniform", "largest diameter", uniform.largest_diameter, "[m]", Range::positive());
@@ -95,17 +85,7 @@ void RveParameters::declare(ParameterFile &file)
            "largest distance of an exponent from 1, for uniform sizes and sieves",
            {.lowest = 0, .highest = 1, .highest_included = false});
 
-  file.add("Grains", "Young's modulus", simulation.grain.young_modulus, "of the mineral [Pa]", Range::positive());
-  file.add("Grains", "Poisson's ratio", simulation.grain.poisson_ratio, "of the mineral",
-           {.lowest = 0, .highest = 0.5, .highest_included = false});
-  file.add("Grains", "density", simulation.grain.density, "of the mineral [kg/m3]", Range::positive());
-  file.add("Grains", "damping ratio", simulation.damping_ratio, "dashpot at the contacts, share of critical damping",
-           Range::between(0, 10));
-  file.add("Grains", "curvature bound", simulation.contact.curvature_bound,
-           "k: radii of curvature at contacts lie in [k r_min, r_max / k], r the half-axes of the grain",
-           {.lowest = 0, .highest = 1, .lowest_included = false});
-  file.add("Grains", "Verlet distance", simulation.verlet_distance, "over the mean bounding radius",
-           {.lowest = 0, .highest = 2, .lowest_included = false});
+  declare_grains(file, simulation);
 
   file.add("Packing", "solid fraction", packing_solid_fraction, "of the geometric packing, before any contact",
            Range::strictly_between(0, 1));

@@ -5,6 +5,7 @@
 #include "dem/io/snapshot.h"
 #include "dem/io/vtu.h"
 #include "dem/measure/assembly_measures.h"
+#include "dem/measure/contact_list.h"
 #include "dem/measure/solid_fraction.h"
 #include "drivers/common/interrupt.h"
 #include "drivers/rve_triaxial/distributions.h"
@@ -56,14 +57,6 @@ const std::vector<std::string> columns = {"time_s",
                                           "energy_curvature_work_J",
                                           "energy_cell_work_J",
                                           "energy_residual_J"};
-
-double max_overlap_over_radius(const std::vector<dem::TouchingContact> &contacts, const dem::Particles &p)
-{
-  double largest = 0.;
-  for (const dem::TouchingContact &c : contacts)
-    largest = std::max(largest, c.state.overlap / std::min(p.bounding_radius[c.first], p.bounding_radius[c.second]));
-  return largest;
-}
 
 } // namespace
 
@@ -248,7 +241,7 @@ void SampleRun::record()
   const double residual = e.balance() - first_balance;
   const dem::Vec3 strain = loading->strain(s);
   const dem::Vec3 rates = s.particles.cell.rate.cwiseQuotient(s.particles.cell.edges);
-  const double overlap = max_overlap_over_radius(contacts, s.particles);
+  const double overlap = dem::largest_relative_overlap(contacts, s.particles);
   const double fraction = solid_volume / volume;
   const double pressure = dem::pressure(m.stress);
   const double inertial = dem::inertial_number(grain, rates.cwiseAbs().maxCoeff(), pressure);

@@ -1,12 +1,9 @@
 #include "drivers/common/driver_main.h"
 #include "drivers/common/interrupt.h"
 #include "drivers/common/parameter_file.h"
-#include "drivers/common/plots.h"
-#include "drivers/common/run_folder.h"
+#include "drivers/common/report_run.h"
 #include "drivers/two_scale_triaxial/parameters.h"
 #include "drivers/two_scale_triaxial/triaxial_run.h"
-
-#include <iostream>
 
 namespace
 {
@@ -45,22 +42,8 @@ int job(const CommandLine &command_line)
   RunFolder folder(command_line);
   TriaxialRun run(parameters, command_line, file.resolved_text(), folder);
   if (!run.run())
-  {
-    std::cout << "stopped; go on with --restart --output " << folder.path().string() << '\n';
-    return stopped_by_user;
-  }
-  const Summary summary = run.summary();
-  summary.write(folder.summary());
-  if (!command_line.quiet)
-    std::cout << summary.table();
-  if (command_line.plots)
-  {
-    const PlotResult plots = make_plots(plot_jobs(folder.path()));
-    for (const std::string &warning : plots.warnings)
-      std::cerr << "warning: " << warning << '\n';
-    for (const auto &picture : plots.pictures)
-      std::cout << "picture: " << picture.string() << '\n';
-  }
+    return report_stop(folder);
+  report_run(run.summary(), folder, command_line, plot_jobs(folder.path()));
   return done;
 }
 

@@ -1,5 +1,6 @@
 #include "drivers/two_scale_triaxial/packing_stage.h"
 
+#include "dem/measure/contact_list.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 
@@ -43,14 +44,8 @@ double coordination_number(const dem::Simulation &grains)
 
 double max_overlap_over_radius(const dem::Simulation &grains)
 {
-  double largest = 0.;
-  const auto &radius = grains.particles.bounding_radius;
-  for (const dem::TouchingContact &contact : grains.pairs.touching(grains.particles))
-    largest = std::max(largest, contact.state.overlap / std::min(radius[contact.first], radius[contact.second]));
-  for (std::size_t k = 0; k < grains.wall_contacts.size(); ++k)
-    if (grains.wall_contacts.is_touching(k))
-      largest = std::max(largest, grains.wall_contacts.state(k).overlap / radius[grains.wall_contacts.particle[k]]);
-  return largest;
+  return std::max(dem::largest_relative_overlap(grains.pairs.touching(grains.particles), grains.particles),
+                  dem::largest_relative_overlap(dem::touching_walls(grains.wall_contacts), grains.particles));
 }
 
 } // namespace bergamo::driver

@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 #include "drivers/common/continuum_parameters.h"
+#include "drivers/common/grain_parameters.h"
 
 #include <cmath>
 #include <numbers>
@@ -28,34 +29,11 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Model", "overlap layers", overlap_layers, "of these, the layers shared with the grains",
            Range::between(1, 200));
 
-  file.add("Grains", "mean half-axes", {distribution.mean_half_axes.data(), 3}, "means of the three half-axes [m]",
-           Range::positive());
-  file.add("Grains", "relative deviation", distribution.relative_deviation,
-           "standard deviation of a half-axis over its mean", Range::between(0, 1));
-  file.add("Grains", "smallest half-axis", distribution.smallest_half_axis, "[m]", Range::positive());
-  file.add("Grains", "largest half-axis", distribution.largest_half_axis, "[m]", Range::positive());
-  file.add("Grains", "smallest exponent", distribution.smallest_exponent,
-           "of the uniform distribution; towards 0 a box, 1 an ellipsoid, towards 2 an octahedron",
-           Range::strictly_between(0, 2));
-  file.add("Grains", "largest exponent", distribution.largest_exponent, "of the uniform distribution",
-           Range::strictly_between(0, 2));
-  file.add("Grains", "Young's modulus", simulation.grain.young_modulus, "of the grains' mineral [Pa]",
-           Range::positive());
-  file.add("Grains", "Poisson's ratio", simulation.grain.poisson_ratio, "of the grains' mineral",
-           {.lowest = 0, .highest = 0.5, .highest_included = false});
-  file.add("Grains", "density", simulation.grain.density, "of the grains' mineral [kg/m3]", Range::positive());
+  declare_distribution(file, "Grains", distribution);
+  declare_grains(file, simulation);
   file.add("Grains", "friction", simulation.friction, "Coulomb's coefficient between grains during the loading",
            Range::non_negative());
-  file.add("Grains", "damping ratio", simulation.damping_ratio, "dashpot at the contacts, share of critical damping",
-           Range::between(0, 10));
-  file.add("Grains", "overlap tolerance", simulation.contact.overlap_tolerance,
-           "relative error of the overlap that may build up between two searches of a contact; 0 searches every step",
-           Range::between(0, 0.1));
-  file.add("Grains", "curvature bound", simulation.contact.curvature_bound,
-           "k: radii of curvature at contacts lie in [k r_min, r_max / k], r the half-axes of the grain",
-           {.lowest = 0, .highest = 1, .lowest_included = false});
-  file.add("Grains", "Verlet distance", simulation.verlet_distance, "over the mean bounding radius",
-           {.lowest = 0, .highest = 2, .lowest_included = false});
+  declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
   file.add("Packing", "seed", seed, "of all random numbers");
   file.add("Packing", "initial solid fraction", initial_solid_fraction, "of the grains placed at random",
