@@ -3,6 +3,7 @@
 
 #include "benchmarks/program.h"
 #include "dem/core/error.h"
+#include "dem/measure/histogram.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/tightening.h"
 
@@ -14,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -29,12 +31,39 @@ struct Options
   int n_grains = 278056; ///< the dissertation's example
   double solid_fraction = 0.55, start_solid_fraction = 0.26, size_step = dem::TighteningParameters().size_step;
   std::uint64_t seed = 1;
-  std::filesystem::path json, curves;
+  std::filesystem::path json, curves, sizes;
 };
 
 double seconds_since(const std::chrono::steady_clock::time_point start)
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::ofstream open_file(const std::filesystem::path &path, const char *option)
+{
+  std::ofstream file;
+  if (path.empty())
+    return file;
+  file.open(path);
+  if (!file)
+    throw dem::ConfigError("cannot write " + path.string() + ": choose another path for " + option);
+  return file;
+}
+
+/// Share of the grains in each class of the radius of the sphere of equal volume, as drawn and as packed.
+void write_sizes(std::ostream &file, const std::vector<dem::Superquadric> &grains, const std::vector<double> &size)
+{
+  std::vector<double> drawn, packed;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+  {
+    drawn.push_back(std::cbrt(0.75 * dem::volume(grains[i]) / std::numbers::pi));
+    packed.push_back(drawn.back() * size[i]);
+  }
+  const dem::Bins bins{.n = 100, .highest = 1.0001 * std::ranges::max(drawn)};
+  const dem::Histogram before = dem::histogram(drawn, bins), after = dem::histogram(packed, bins);
+  file << "radius_m,density_drawn_per_m,density_packed_per_m\n";
+  for (int k = 0; k < bins.n; ++k)
+    file << (k + 0.5) * before.width << ',' << before.density[k] << ',' << after.density[k] << '\n';
 }
 
 /// One row a round of the addition and an iteration of the tightening.
@@ -66,13 +95,7 @@ void write_curves(std::ostream &file, const std::vector<dem::AdditionRound> &rou
 
 nlohmann::json measure(const Options &options)
 {
-  std::ofstream curves;
-  if (!options.curves.empty())
-  {
-    curves.open(options.curves);
-    if (!curves)
-      throw dem::ConfigError("cannot write " + options.curves.string() + ": choose another path for --curves");
-  }
+  std::ofstream curves = open_file(options.curves, "--curves"), sizes = open_file(options.sizes, "--sizes");
   std::mt19937_64 generator(options.seed);
   std::vector<dem::Superquadric> grains;
   double solid_volume = 0.;
@@ -115,6 +138,8 @@ nlohmann::json measure(const Options &options)
             << " (" << (943. + 3. * 3600.) * 6. / 278056. << ")\n";
   if (curves.is_open())
     write_curves(curves, addition.rounds, tight.steps, options.n_grains);
+  if (sizes.is_open())
+    write_sizes(sizes, grains, tight.size);
   return {{"grains", options.n_grains},
           {"threads", omp_get_max_threads()},
           {"edge_m", edge},
@@ -146,6 +171,7 @@ int main(const int argc, char **const argv)
         app.add_option("--seed", options.seed, "Seed (default: 1)");
         app.add_option("--json", options.json, "File for the figures");
         app.add_option("--curves", options.curves, "CSV file for trials and solid fraction over the iterations");
+        app.add_option("--sizes", options.sizes, "CSV file for the distribution of sizes, as drawn and as packed");
         if (parse_arguments(app, argc, argv))
           write_figures(options.json, [&] { return measure(options); });
       });

@@ -6,6 +6,7 @@ Usage: rve_triaxial.py PROGRAM [TOPIC]
 
 import csv
 import json
+import shlex
 import shutil
 import signal
 import subprocess
@@ -168,6 +169,26 @@ class Restart(Case):
         self.assertIn("sample 1", result.stderr)
         self.assertIn("snapshot.h5", result.stderr)
         self.assertEqual([row["finished"] for row in numbers(out / "ensemble.csv")], [0, 1])
+
+
+    def test_full_disk(self):
+        """A file system too small for a snapshot: one message, the table of samples stays whole."""
+        full = self.tmp / "full"
+        full.mkdir()
+        settings = ["--set", "Output/snapshot interval=0.3", "--threads", "1"]
+        inside = f"""mount -t tmpfs -o size=200k none {full} || exit 99
+            {' '.join(shlex.quote(word) for word in self.command(full, '--force', *settings))}; status=$?
+            cp -r {full} {self.tmp}/kept
+            exit $status"""
+        result = subprocess.run(["unshare", "--map-root-user", "--mount", "bash", "-c", inside],
+                                capture_output=True, text=True, timeout=600)
+        if result.returncode == 99 or "unshare" in result.stderr:
+            self.skipTest("this machine allows no mounts: " + result.stderr)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        for word in ("sample 1", str(full), "No space left", "free some space"):
+            self.assertIn(word, result.stderr)
+        for row in numbers(self.tmp / "kept" / "ensemble.csv"):
+            self.assertEqual(row["finished"], 0)
 
 
 class BadInput(Case):
