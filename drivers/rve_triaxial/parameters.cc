@@ -20,7 +20,7 @@ RveParameters::RveParameters()
   generation.overlap_tolerance = 5e-2; // light contacts of grains that jostle one another
   for (StageSettings &s : stages)
     s.stage.pressure = 0.;
-  stages[1].stage.inertial_number = 1e-4;
+  stages[1].stage.inertial_number = 1e-3;
   stages[1].stage.axial_strain = -0.25;
   path_names.fill("none");
   path_names[0] = "isotropic";

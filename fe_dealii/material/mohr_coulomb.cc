@@ -1,10 +1,9 @@
 #include "fe_dealii/material/mohr_coulomb.h"
 
-#include "fe_dealii/error.h"
+#include "fe_dealii/material/elastic_parameters.h"
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 namespace bergamo::fe
 {
@@ -13,11 +12,7 @@ namespace
 
 void require(const bool holds, const char *name, const double value, const char *rule)
 {
-  if (holds)
-    return;
-  std::ostringstream message;
-  message << "Mohr-Coulomb material: " << name << " = " << value << " is not allowed; " << rule;
-  throw ParameterError(message.str());
+  require_parameter(holds, "Mohr-Coulomb material", name, value, rule);
 }
 
 } // namespace

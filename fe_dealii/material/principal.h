@@ -1,42 +1,10 @@
 #pragma once
 
+#include "fe_dealii/material/lanes.h"
 #include "fe_dealii/material/tensor.h"
-
-#include <cstddef>
 
 namespace bergamo::fe
 {
-
-/// Helpers that let principal_frame() run on a double or on a SIMD pack of GCC's or Clang's vector extension.
-namespace lanes
-{
-inline double square_root(const double x)
-{
-  return std::sqrt(x);
-}
-inline bool any(const bool condition)
-{
-  return condition;
-}
-
-template <class Pack>
-Pack square_root(const Pack &x)
-{
-  Pack root;
-  for (std::size_t i = 0; i < sizeof(Pack) / sizeof(double); ++i)
-    root[i] = std::sqrt(x[i]);
-  return root;
-}
-
-template <class Mask>
-bool any(const Mask &condition)
-{
-  bool found = false;
-  for (std::size_t i = 0; i < sizeof(Mask) / sizeof(double); ++i)
-    found |= condition[i] != 0;
-  return found;
-}
-} // namespace lanes
 
 /// value[0] >= value[1] >= value[2]; direction[k] is the unit eigenvector of value[k]. The three are orthonormal.
 template <class Real>

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "fe_dealii/material/deformation.h"
+#include "fe_dealii/material/lanes.h"
+
+/// Hyperelastic laws: energies of the deformation gradient F, of large strain and rotation.
+///
+/// Each law is a class with
+///   Tensor3<Real> point_stress(F, cof F, J)   first Piola-Kirchhoff stress of the part W(F) [Pa]
+///   Real point_energy(F, J)                   W(F) per reference volume [J/m³]
+///   volumetric()                              the part U(J) that an element may take at its mean volume ratio
+///   shear_modulus(), bulk_modulus()           at small strain [Pa]; density() of the reference state [kg/m³]
+/// for Real a double or a pack of them. The whole energy is W(F) + U(J), the stress that of W plus U'(J) cof F. Where U
+/// is taken at the mean ratio of an element, v/V, the element does not lock at nearly constant volume (Simo, Taylor,
+/// Pister, Comput. Methods Appl. Mech. Eng. 51 (1985) 177-208).
+namespace bergamo::fe
+{
+
+/// U(J) = k/4 (J² − 1 − 2 ln J): convex, without a bound in both directions, U'' = k at J = 1.
+struct VolumetricEnergy
+{
+  double modulus; ///< k [Pa]
+
+  template <class Real>
+  Real energy(const Real &ratio) const
+  {
+    return (0.25 * modulus) * (ratio * ratio - 1. - 2. * lanes::logarithm(ratio));
+  }
+
+  /// U'(J), tension positive [Pa].
+  template <class Real>
+  Real pressure(const Real &ratio) const
+  {
+    return (0.5 * modulus) * (ratio - 1. / ratio);
+  }
+};
+
+/// Stress of a law at one point alone, or at several points without any mean: first Piola-Kirchhoff [Pa].
+template <class Law, class Real>
+Tensor3<Real> first_piola(const Law &law, const Tensor3<Real> &f)
+{
+  const Tensor3<Real> minors = cofactor(f);
+  const Real ratio = determinant(f, minors);
+  Tensor3<Real> stress = law.point_stress(f, minors, ratio);
+  const Real pressure = law.volumetric().pressure(ratio);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      stress[i][j] += pressure * minors[i][j];
+  return stress;
+}
+
+/// Energy of a law at one point [J per m³ of the reference state].
+template <class Law, class Real>
+Real energy_density(const Law &law, const Tensor3<Real> &f)
+{
+  const Real ratio = determinant(f, cofactor(f));
+  return law.point_energy(f, ratio) + law.volumetric().energy(ratio);
+}
+
+} // namespace bergamo::fe
