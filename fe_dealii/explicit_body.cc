@@ -194,7 +194,7 @@ void ExplicitBody::compute_internal_force()
           const std::size_t dof = 3 * std::size_t(element_nodes_[e][v]) + i;
           increment[3 * v + i] = now[dof] - before[dof];
         }
-      hexahedron::Points strain[6];
+      Points strain[6];
       hexahedron::strain(geometry_[e], increment, strain);
       hexahedron::update_stress(material_, geometry_[e], strain, history_[e], &sector_[hexahedron::n_points * e]);
       hexahedron::internal_force(geometry_[e], history_[e].stress, &element_force_[hexahedron::n_dofs * e]);
@@ -387,7 +387,7 @@ Stress ExplicitBody::average_stress(const std::size_t element) const
 {
   Stress result;
   for (int i = 0; i < 6; ++i)
-    result[i] = hexahedron::sum(geometry_[element].volume_fraction * history_[element].stress[i]);
+    result[i] = sum(geometry_[element].volume_fraction * history_[element].stress[i]);
   return result;
 }
 
@@ -398,8 +398,8 @@ Stress ExplicitBody::average_stress() const
   for (std::size_t e = 0; e < n_elements(); ++e)
   {
     for (int i = 0; i < 6; ++i)
-      result[i] += hexahedron::sum(geometry_[e].volume * history_[e].stress[i]);
-    volume += hexahedron::sum(geometry_[e].volume);
+      result[i] += sum(geometry_[e].volume * history_[e].stress[i]);
+    volume += sum(geometry_[e].volume);
   }
   for (double &component : result)
     component /= volume;
@@ -419,7 +419,7 @@ double ExplicitBody::plastic_energy() const
 {
   double energy = 0;
   for (const auto &history : history_)
-    energy += hexahedron::sum(history.dissipated_energy);
+    energy += sum(history.dissipated_energy);
   return energy;
 }
 

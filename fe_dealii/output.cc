@@ -44,7 +44,7 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
     cell_data[9][e] = -mean_stress(stress);
     cell_data[10][e] = std::sqrt(3 * second_invariant(stress));
     cell_data[11][e] = body.material().yield_function(stress);
-    cell_data[12][e] = hexahedron::sum(body.geometry()[e].volume_fraction * body.history()[e].plastic_strain);
+    cell_data[12][e] = sum(body.geometry()[e].volume_fraction * body.history()[e].plastic_strain);
   }
 
   dealii::DataOut<3> output;

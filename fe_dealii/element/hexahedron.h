@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe_dealii/element/points.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 
 /// Trilinear hexahedron with 2×2×2 points and a mean dilatation (B-bar: Hughes, Generalization of selective
@@ -12,9 +13,6 @@ namespace bergamo::fe::hexahedron
 inline constexpr int n_nodes = 8;
 inline constexpr int n_points = 8;
 inline constexpr int n_dofs = 24; ///< 3*node + component
-
-/// One double per point. Vector extension of GCC and Clang; compiles to what the processor has.
-using Points [[gnu::vector_size(64)]] = double;
 
 /// What an element is in the reference configuration.
 struct Geometry
@@ -32,11 +30,6 @@ struct History
   Points plastic_strain;    ///< accumulated equivalent_strain() of the plastic increments [-]
   Points dissipated_energy; ///< accumulated plastic dissipation, share included [J]
 };
-
-inline double sum(const Points &x)
-{
-  return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
-}
 
 /// N_node at a point, trilinear, 2×2×2 Gauss: one factor (1 ± 1/√3)/2 per axis.
 inline double shape_value(const int node, const int point)

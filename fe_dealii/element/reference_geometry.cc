@@ -38,7 +38,7 @@ std::vector<hexahedron::Geometry> reference_geometry(const dealii::DoFHandler<3,
           geometry.gradient[i][node][point] = values.shape_grad(node, point)[i];
     }
     geometry.share_volume = geometry.volume;
-    geometry.volume_fraction = geometry.volume / hexahedron::sum(geometry.volume);
+    geometry.volume_fraction = geometry.volume / sum(geometry.volume);
     result.push_back(geometry);
   }
   return result;

@@ -53,6 +53,18 @@ public:
     return 0.5 * (first() * (v.first - 3.) + second() * (v.second - 3.));
   }
 
+  /// λ ∂W/∂λ and the share of one direction in W, incompressible, at x = λ².
+  template <class Real>
+  Real principal_slope(const Real &x) const
+  {
+    return first() * x - second() / x;
+  }
+  template <class Real>
+  Real principal_energy(const Real &x) const
+  {
+    return 0.5 * (first() * (x - 1.) + second() * (1. / x - 1.));
+  }
+
   VolumetricEnergy volumetric() const { return {bulk_modulus()}; }
   double shear_modulus() const { return p.elastic.shear_modulus(); } ///< G [Pa]
   double bulk_modulus() const { return p.elastic.bulk_modulus(); }   ///< K [Pa]

@@ -37,6 +37,18 @@ public:
     return (0.5 * shear_modulus()) * (c[0] + c[1] + c[2] - 3. - 2. * lanes::logarithm(ratio));
   }
 
+  /// λ ∂W/∂λ and the share of one direction in W, incompressible, at x = λ².
+  template <class Real>
+  Real principal_slope(const Real &x) const
+  {
+    return shear_modulus() * x;
+  }
+  template <class Real>
+  Real principal_energy(const Real &x) const
+  {
+    return (0.5 * shear_modulus()) * (x - 1.);
+  }
+
   VolumetricEnergy volumetric() const { return {bulk_modulus() - 2 * shear_modulus() / 3}; }
   double shear_modulus() const { return p.shear_modulus(); } ///< G [Pa]
   double bulk_modulus() const { return p.bulk_modulus(); }   ///< K [Pa]

@@ -40,18 +40,21 @@ public:
   template <class Real>
   Tensor3<Real> point_stress(const Tensor3<Real> &f, const Tensor3<Real> &, const Real &ratio) const
   {
-    const Stretches<Real> s = stretches(f, ratio);
-    // S = Σ_k (∂W/∂ln λ_k)/λ_k² N_k ⊗ N_k, and at constant volume the logarithmic derivatives have no trace.
-    Real value[3];
+    const PrincipalFrame<Real> stretch = principal_squares(f);
+    const Real scale = lanes::power(ratio, -2. / 3.);
+    Real slope[3];
     for (int k = 0; k < 3; ++k)
-      value[k] = (2. * s.slope[k] - s.slope[(k + 1) % 3] - s.slope[(k + 2) % 3]) / (3. * s.frame.value[k]);
+      slope[k] = principal_slope(Real(scale * stretch.value[k]));
+    // S = Σ_k (∂W/∂ln λ_k)/λ_k² N_k ⊗ N_k, and at constant volume the logarithmic derivatives have no trace.
     Real second_piola[6];
     constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
     for (int c = 0; c < 6; ++c)
+      second_piola[c] = 0. * ratio;
+    for (int k = 0; k < 3; ++k)
     {
-      second_piola[c] = value[0] * s.frame.direction[0][row[c]] * s.frame.direction[0][column[c]];
-      for (int k = 1; k < 3; ++k)
-        second_piola[c] += value[k] * s.frame.direction[k][row[c]] * s.frame.direction[k][column[c]];
+      const Real value = (2. * slope[k] - slope[(k + 1) % 3] - slope[(k + 2) % 3]) / (3. * stretch.value[k]);
+      for (int c = 0; c < 6; ++c)
+        second_piola[c] += value * stretch.direction[k][row[c]] * stretch.direction[k][column[c]];
     }
     return times_symmetric(f, second_piola);
   }
@@ -59,8 +62,23 @@ public:
   template <class Real>
   Real point_energy(const Tensor3<Real> &f, const Real &ratio) const
   {
-    const Stretches<Real> s = stretches(f, ratio);
-    return s.energy[0] + s.energy[1] + s.energy[2];
+    const PrincipalFrame<Real> stretch = principal_squares(f);
+    const Real scale = lanes::power(ratio, -2. / 3.);
+    return principal_energy(Real(scale * stretch.value[0])) + principal_energy(Real(scale * stretch.value[1])) +
+           principal_energy(Real(scale * stretch.value[2]));
+  }
+
+  /// λ ∂W/∂λ and the share of one direction in W, at x = λ̄².
+  template <class Real>
+  Real principal_slope(const Real &x) const
+  {
+    return sum_of_terms(x, [](const double modulus, double, const Real &power) { return Real(modulus * power); });
+  }
+  template <class Real>
+  Real principal_energy(const Real &x) const
+  {
+    return sum_of_terms(x, [](const double modulus, const double exponent, const Real &power)
+                        { return Real((modulus / exponent) * (power - 1.)); });
   }
 
   VolumetricEnergy volumetric() const { return {p.bulk_modulus}; }
@@ -70,36 +88,23 @@ public:
   const OgdenParameters &parameters() const { return p; }
 
 private:
-  template <class Real>
-  struct Stretches
+  template <class Real, class Term>
+  Real sum_of_terms(const Real &square, const Term &term) const
   {
-    PrincipalFrame<Real> frame; // of C: values λ²
-    Real slope[3];              // Σ_p μ_p λ̄_k^α_p
-    Real energy[3];             // Σ_p μ_p/α_p (λ̄_k^α_p − 1)
-  };
+    const Real log_stretch = 0.5 * lanes::logarithm(square);
+    Real sum = 0. * square;
+    for (int n = 0; n < 3; ++n)
+      if (p.modulus[n] != 0)
+        sum += term(p.modulus[n], p.exponent[n], Real(lanes::exponential(Real(p.exponent[n] * log_stretch))));
+    return sum;
+  }
 
   template <class Real>
-  Stretches<Real> stretches(const Tensor3<Real> &f, const Real &ratio) const
+  static PrincipalFrame<Real> principal_squares(const Tensor3<Real> &f)
   {
-    Stretches<Real> s;
     Real c[6];
     right_cauchy_green(f, c);
-    s.frame = principal_frame<Real>(c);
-    const Real scale = lanes::power(ratio, -2. / 3.);
-    for (int k = 0; k < 3; ++k)
-    {
-      const Real log_stretch = 0.5 * lanes::logarithm(Real(scale * s.frame.value[k]));
-      s.slope[k] = s.energy[k] = ratio * 0.;
-      for (int n = 0; n < 3; ++n)
-      {
-        if (p.modulus[n] == 0)
-          continue;
-        const Real power = lanes::exponential(Real(p.exponent[n] * log_stretch));
-        s.slope[k] += p.modulus[n] * power;
-        s.energy[k] += p.modulus[n] / p.exponent[n] * (power - 1.);
-      }
-    }
-    return s;
+    return principal_frame<Real>(c);
   }
 
   OgdenParameters p;

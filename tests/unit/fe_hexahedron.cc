@@ -127,7 +127,7 @@ TEST_CASE("Internal force is work-conjugate to the strain, the stiffness symmetr
   const auto &geometry = body.geometry()[0];
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  hexahedron::Points stress[6], strain[6];
+  Points stress[6], strain[6];
   for (auto &component : stress)
     for (int point = 0; point < 8; ++point)
       component[point] = normal(random);
@@ -139,7 +139,7 @@ TEST_CASE("Internal force is work-conjugate to the strain, the stiffness symmetr
   for (int i = 0; i < 24; ++i)
     work += force[i] * u[i];
   for (int i = 0; i < 6; ++i)
-    virtual_work += hexahedron::sum(geometry.share_volume * stress[i] * strain[i]);
+    virtual_work += sum(geometry.share_volume * stress[i] * strain[i]);
   CHECK(work == Approx(virtual_work).epsilon(1e-12));
 
   dealii::LAPACKFullMatrix<double> k(24);

@@ -1,0 +1,136 @@
+#pragma once
+
+#include "fe_dealii/element/points.h"
+#include "fe_dealii/material/hyperelastic.h"
+
+#include <algorithm>
+#include <cmath>
+
+/// Solid elements of any number of nodes at large strain, total Lagrangian: all geometry is taken once in the reference
+/// configuration, forces follow from the first Piola-Kirchhoff stress.
+namespace bergamo::fe::finite_strain
+{
+
+/// What an element is in the reference configuration.
+/// @tparam n_nodes of the element; @tparam n_packs of eight quadrature points
+template <int n_nodes, int n_packs>
+struct Geometry
+{
+  static constexpr int nodes = n_nodes, packs = n_packs;
+
+  Points gradient[n_packs][3][n_nodes]; ///< ∂N_node/∂X_component [1/m]; 0 at points of no volume
+  Points volume[n_packs];               ///< weight times Jacobian determinant [m³]
+};
+
+/// How an element takes the part U(J) of its material.
+enum class Dilatation
+{
+  point, ///< at every quadrature point
+  mean   ///< once, at the ratio of the element's volumes: no locking at nearly constant volume
+};
+
+/// What a configuration of an element gives beside its forces.
+struct Response
+{
+  double energy = 0.;         ///< [J]
+  double smallest_ratio = 0.; ///< least det F at any point; <= 0 where the element has turned inside out
+};
+
+/// Deformation gradient at the points of a pack. @param u displacements, 3*node + component [m]
+template <class Element>
+Tensor3<Points> deformation_gradient(const Element &element, const int pack, const double *u)
+{
+  Tensor3<Points> f;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+    {
+      Points sum = Points{} + (i == j ? 1. : 0.);
+      for (int node = 0; node < Element::nodes; ++node)
+        sum += u[3 * node + i] * element.gradient[pack][j][node];
+      f[i][j] = sum;
+    }
+  return f;
+}
+
+/// Internal forces, the derivative of the energy by the displacements.
+/// @param u displacements, 3*node + component [m]; @param force on the element's nodes, the same order [N]; where the
+///        smallest ratio is not positive the forces are no numbers
+template <class Law, class Element>
+Response internal_force(const Law &law, const Element &element, const Dilatation dilatation, const double *u,
+                        double *force)
+{
+  const VolumetricEnergy volumetric = law.volumetric();
+  Tensor3<Points> minors[Element::packs], stress[Element::packs];
+  Points ratio[Element::packs], energy{};
+  double volume = 0., present_volume = 0.;
+  Response response{0., 1e300};
+  for (int pack = 0; pack < Element::packs; ++pack)
+  {
+    const Tensor3<Points> f = deformation_gradient(element, pack, u);
+    minors[pack] = cofactor(f);
+    ratio[pack] = determinant(f, minors[pack]);
+    stress[pack] = law.point_stress(f, minors[pack], ratio[pack]);
+    energy += element.volume[pack] * law.point_energy(f, ratio[pack]);
+    volume += sum(element.volume[pack]);
+    present_volume += sum(element.volume[pack] * ratio[pack]);
+    response.smallest_ratio = std::min(response.smallest_ratio, smallest(ratio[pack]));
+  }
+  const double mean_ratio = present_volume / volume;
+  if (dilatation == Dilatation::mean)
+    response.energy = volume * volumetric.energy(mean_ratio);
+  for (int k = 0; k < 3 * Element::nodes; ++k)
+    force[k] = 0.;
+  for (int pack = 0; pack < Element::packs; ++pack)
+  {
+    Points pressure;
+    if (dilatation == Dilatation::mean)
+      pressure = Points{} + volumetric.pressure(mean_ratio);
+    else
+    {
+      pressure = volumetric.pressure(ratio[pack]);
+      energy += element.volume[pack] * volumetric.energy(ratio[pack]);
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      Points row[3];
+      for (int j = 0; j < 3; ++j)
+        row[j] = element.volume[pack] * (stress[pack][i][j] + pressure * minors[pack][i][j]);
+      for (int node = 0; node < Element::nodes; ++node)
+        force[3 * node + i] += sum(row[0] * element.gradient[pack][0][node] + row[1] * element.gradient[pack][1][node] +
+                                   row[2] * element.gradient[pack][2][node]);
+    }
+  }
+  response.energy += sum(energy);
+  return response;
+}
+
+/// Tangent stiffness by central differences of the forces, row-major, made symmetric [N/m]. Its error is about 1e-9 of
+/// the largest entry.
+template <class Law, class Element>
+void tangent_stiffness(const Law &law, const Element &element, const Dilatation dilatation, const double *u,
+                       double *stiffness)
+{
+  constexpr int n = 3 * Element::nodes;
+  double volume = 0.;
+  for (const Points &v : element.volume)
+    volume += sum(v);
+  const double step = 1e-5 * std::cbrt(volume);
+  double moved[n], more[n], less[n];
+  std::copy(u, u + n, moved);
+  for (int column = 0; column < n; ++column)
+  {
+    moved[column] = u[column] + step;
+    internal_force(law, element, dilatation, moved, more);
+    moved[column] = u[column] - step;
+    internal_force(law, element, dilatation, moved, less);
+    moved[column] = u[column];
+    for (int row = 0; row < n; ++row)
+      stiffness[n * row + column] = (more[row] - less[row]) / (2. * step);
+  }
+  for (int row = 0; row < n; ++row)
+    for (int column = 0; column < row; ++column)
+      stiffness[n * row + column] = stiffness[n * column + row] =
+          0.5 * (stiffness[n * row + column] + stiffness[n * column + row]);
+}
+
+} // namespace bergamo::fe::finite_strain
