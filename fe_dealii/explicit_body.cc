@@ -1,16 +1,17 @@
 #include "fe_dealii/explicit_body.h"
 
-#include "fe_dealii/element/reference_geometry.h"
+#include "fe_dealii/element/solid_elements.h"
 #include "fe_dealii/error.h"
 
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 namespace bergamo::fe
@@ -22,6 +23,7 @@ namespace
 constexpr std::size_t block_nodes = 512;
 // Below this, waking the threads costs more than they save.
 constexpr std::size_t few_elements = 256;
+constexpr std::size_t block_elements = 32; // in one virtual call
 
 template <class... Parts>
 [[noreturn]] void reject(const Parts &...parts)
@@ -29,13 +31,6 @@ template <class... Parts>
   std::ostringstream message;
   (message << ... << parts);
   throw ParameterError(message.str());
-}
-
-template <class Block>
-std::span<double> doubles_of(std::vector<Block> &blocks)
-{
-  static_assert(sizeof(Block) % sizeof(double) == 0);
-  return {reinterpret_cast<double *>(blocks.data()), blocks.size() * sizeof(Block) / sizeof(double)};
 }
 
 std::span<double> doubles_of(dealii::Vector<double> &vector)
@@ -47,14 +42,15 @@ std::span<double> doubles_of(dealii::Vector<double> &vector)
 
 void ExplicitBodyParameters::validate() const
 {
-  material.validate();
+  if (degree != 1 && degree != 2)
+    reject("continuum: degree = ", degree, " of the elements is not allowed; choose 1 (8 nodes) or 2 (27 nodes)");
   for (int i = 0; i < 3; ++i)
     if (!std::isfinite(gravity[i]))
       reject("continuum: gravity component ", i, " = ", gravity[i], " m/s^2 is not finite; give a number");
   if (!(damping >= 0) || !std::isfinite(damping))
     reject("continuum: damping = ", damping, " 1/s is not allowed; give zero or a positive number");
-  const double friction = material.friction_angle * std::numbers::pi / 180;
-  const double tension_limit = friction > 0 ? material.cohesion / std::tan(friction) : HUGE_VAL;
+  const MohrCoulomb *const sand = std::get_if<MohrCoulomb>(&material);
+  const double tension_limit = sand ? sand->apex() : HUGE_VAL;
   if (!(initial_pressure >= -tension_limit) || !std::isfinite(initial_pressure))
     reject("continuum: initial_pressure = ", initial_pressure, " Pa is not allowed; the material bears no less than ",
            -tension_limit, " Pa (-c cot phi)");
@@ -62,7 +58,7 @@ void ExplicitBodyParameters::validate() const
 
 struct ExplicitBody::Mesh
 {
-  Mesh() : element(dealii::FE_Q<3>(1), 3), dof_handler(triangulation) {}
+  explicit Mesh(const unsigned int degree) : element(dealii::FE_Q<3>(degree), 3), dof_handler(triangulation) {}
 
   dealii::Triangulation<3> triangulation;
   dealii::FESystem<3> element;
@@ -70,7 +66,7 @@ struct ExplicitBody::Mesh
 };
 
 ExplicitBody::ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const ExplicitBodyParameters &parameters)
-    : mesh_(std::make_unique<Mesh>()), parameters_((parameters.validate(), parameters)), material_(parameters.material)
+    : mesh_(std::make_unique<Mesh>(parameters.degree)), parameters_((parameters.validate(), parameters))
 {
   if (mesh.n_active_cells() == 0)
     reject("continuum: the mesh has no cells; fill the triangulation first");
@@ -81,44 +77,27 @@ ExplicitBody::ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const Explic
   mesh_->triangulation.copy_triangulation(mesh);
   mesh_->dof_handler.distribute_dofs(mesh_->element);
 
-  const std::size_t n_dofs = mesh_->dof_handler.n_dofs();
-  node_position_.resize(n_dofs / 3);
-  element_nodes_.reserve(mesh.n_active_cells());
-  for (const auto &cell : mesh_->dof_handler.active_cell_iterators())
-  {
-    auto &nodes = element_nodes_.emplace_back();
-    for (unsigned int v = 0; v < hexahedron::n_nodes; ++v)
-    {
-      const auto first = cell->vertex_dof_index(v, 0);
-      // The rest of the program relies on dof = 3 node + component.
-      if (first % 3 != 0 || cell->vertex_dof_index(v, 1) != first + 1 || cell->vertex_dof_index(v, 2) != first + 2)
-        throw AnalysisError("continuum: this version of deal.II numbers the displacement components of a vertex apart; "
-                            "use 9.4, or renumber in ExplicitBody");
-      nodes[v] = first / 3;
-      for (int i = 0; i < 3; ++i)
-        node_position_[nodes[v]][i] = cell->vertex(v)[i];
-    }
-  }
+  elements_ = make_solid_elements(mesh_->dof_handler, parameters.material, parameters.initial_pressure);
 
+  const std::size_t n_dofs = mesh_->dof_handler.n_dofs();
+  std::vector<dealii::Point<3>> support(n_dofs);
+  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<3>(), mesh_->dof_handler, support);
+  node_position_.resize(n_dofs / 3);
+  for (std::size_t node = 0; node < n_nodes(); ++node)
+    for (int i = 0; i < 3; ++i)
+      node_position_[node][i] = support[3 * node][i];
+
+  const std::span<const unsigned int> nodes = elements_->nodes();
   slot_head_.assign(n_nodes() + 1, 0);
-  for (const auto &nodes : element_nodes_)
-    for (const unsigned int node : nodes)
-      ++slot_head_[node + 1];
+  for (const unsigned int node : nodes)
+    ++slot_head_[node + 1];
   for (std::size_t node = 0; node < n_nodes(); ++node)
     slot_head_[node + 1] += slot_head_[node];
-  slot_.resize(8 * n_elements());
+  slot_.resize(nodes.size());
   auto next = slot_head_;
-  for (std::size_t e = 0; e < n_elements(); ++e)
-    for (unsigned int v = 0; v < 8; ++v)
-      slot_[next[element_nodes_[e][v]]++] = 8 * e + v;
+  for (std::size_t place = 0; place < nodes.size(); ++place)
+    slot_[next[nodes[place]]++] = place;
 
-  geometry_ = reference_geometry(mesh_->dof_handler);
-  hexahedron::History initial{};
-  for (int i = 0; i < 3; ++i)
-    initial.stress[i] -= parameters.initial_pressure;
-  history_.assign(n_elements(), initial);
-  sector_.assign(hexahedron::n_points * n_elements(), Sector::elastic);
-  element_force_.resize(hexahedron::n_dofs * n_elements());
   for (dealii::Vector<double> *vector : {&displacement_, &velocity_, &internal_force_, &external_force_,
                                          &reaction_force_, &mass_, &displacement_of_stress_})
     vector->reinit(n_dofs);
@@ -137,13 +116,13 @@ const dealii::DoFHandler<3, 3> &ExplicitBody::dof_handler() const
 void ExplicitBody::gather_mass()
 {
   mass_ = 0;
+  std::vector<double> mass(elements_->nodes_per_element());
   for (std::size_t e = 0; e < n_elements(); ++e)
   {
-    double mass[hexahedron::n_nodes];
-    hexahedron::lumped_mass(material_.density(), geometry_[e], mass);
-    for (int v = 0; v < 8; ++v)
+    elements_->lumped_mass(e, mass.data());
+    for (std::size_t v = 0; v < mass.size(); ++v)
       for (int i = 0; i < 3; ++i)
-        mass_[3 * element_nodes_[e][v] + i] += mass[v];
+        mass_[3 * std::size_t(element_nodes(e)[v]) + i] += mass[v];
   }
 }
 
@@ -157,47 +136,40 @@ void ExplicitBody::set_share(const std::span<const double> nodal_weight)
   // A node has mass exactly if one of its elements has a node of weight below 1. Checked first: a throw changes
   // nothing.
   std::vector<bool> has_mass(n_nodes(), false);
-  for (const auto &nodes : element_nodes_)
+  for (std::size_t e = 0; e < n_elements(); ++e)
+  {
+    const std::span<const unsigned int> nodes = element_nodes(e);
     if (std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) { return nodal_weight[node] < 1; }))
       for (const unsigned int node : nodes)
         has_mass[node] = true;
+  }
   const auto massless = std::find(has_mass.begin(), has_mass.end(), false);
   if (massless != has_mass.end())
     reject("continuum: the weights leave node ", massless - has_mass.begin(),
            " without mass; bound them away from 1, e.g. by 0.999");
 
-  for (std::size_t e = 0; e < n_elements(); ++e)
-    for (int point = 0; point < hexahedron::n_points; ++point)
-    {
-      double share = 0;
-      for (int v = 0; v < 8; ++v)
-        share += hexahedron::shape_value(v, point) * (1 - nodal_weight[element_nodes_[e][v]]);
-      geometry_[e].share_volume[point] = share * geometry_[e].volume[point];
-    }
+  std::vector<double> share(n_nodes());
+  for (std::size_t node = 0; node < n_nodes(); ++node)
+    share[node] = 1 - nodal_weight[node];
+  elements_->set_share(share);
   gather_mass();
 }
 
 void ExplicitBody::compute_internal_force()
 {
   const std::size_t n_elements = this->n_elements(), n_nodes = this->n_nodes();
+  const std::size_t n_blocks = (n_elements + block_elements - 1) / block_elements;
   const double *const now = displacement_.begin();
   double *const before = displacement_of_stress_.begin();
+  const std::span<const double> element_force = elements_->forces();
+  std::size_t inverted = n_elements; // the first one
 #pragma omp parallel if (n_elements >= few_elements)
   {
-#pragma omp for schedule(static)
-    for (std::size_t e = 0; e < n_elements; ++e)
+#pragma omp for schedule(static) reduction(min : inverted)
+    for (std::size_t block = 0; block < n_blocks; ++block)
     {
-      double increment[hexahedron::n_dofs];
-      for (int v = 0; v < 8; ++v)
-        for (int i = 0; i < 3; ++i)
-        {
-          const std::size_t dof = 3 * std::size_t(element_nodes_[e][v]) + i;
-          increment[3 * v + i] = now[dof] - before[dof];
-        }
-      Points strain[6];
-      hexahedron::strain(geometry_[e], increment, strain);
-      hexahedron::update_stress(material_, geometry_[e], strain, history_[e], &sector_[hexahedron::n_points * e]);
-      hexahedron::internal_force(geometry_[e], history_[e].stress, &element_force_[hexahedron::n_dofs * e]);
+      const std::size_t begin = block * block_elements, end = std::min(n_elements, begin + block_elements);
+      inverted = std::min(inverted, elements_->compute_forces(begin, end, now, before).value_or(n_elements));
     }
     // Each node sums its elements in their order: no race, and the same bits whatever the threads.
 #pragma omp for schedule(static)
@@ -206,7 +178,7 @@ void ExplicitBody::compute_internal_force()
       double force[3] = {0, 0, 0};
       for (std::size_t k = slot_head_[node]; k < slot_head_[node + 1]; ++k)
         for (int i = 0; i < 3; ++i)
-          force[i] += element_force_[3 * std::size_t(slot_[k]) + i];
+          force[i] += element_force[3 * std::size_t(slot_[k]) + i];
       for (std::size_t i = 0; i < 3; ++i)
       {
         internal_force_[3 * node + i] = force[i];
@@ -214,6 +186,21 @@ void ExplicitBody::compute_internal_force()
       }
     }
   }
+  if (inverted < n_elements)
+    report_inversion(inverted);
+}
+
+void ExplicitBody::report_inversion(const std::size_t element) const
+{
+  std::array<double, 3> centre{};
+  const std::span<const unsigned int> nodes = element_nodes(element);
+  for (const unsigned int node : nodes)
+    for (int i = 0; i < 3; ++i)
+      centre[i] += (node_position_[node][i] + displacement_[3 * std::size_t(node) + i]) / nodes.size();
+  std::ostringstream message;
+  message << "continuum: element " << element << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
+          << ") m has turned inside out; choose a smaller time step, a finer mesh there or a smaller load";
+  throw AnalysisError(message.str());
 }
 
 void ExplicitBody::kick(const double dt)
@@ -288,7 +275,7 @@ void ExplicitBody::kick(const double dt)
   accumulate(ledger_.ahead, total.after);
   ledger_.kinetic = total.kinetic;
   if (ledger_.last_step == 0)
-    ledger_.initial = ledger_.kinetic + elastic_energy() + plastic_energy();
+    ledger_.initial = ledger_.kinetic + elements_->elastic_energy() + elements_->dissipated_energy();
   ledger_.last_step = dt;
 }
 
@@ -375,60 +362,28 @@ std::vector<std::array<unsigned int, 4>> ExplicitBody::boundary_faces(const unsi
   return faces;
 }
 
-Stress ExplicitBody::stress(const std::size_t element, const std::size_t point) const
-{
-  Stress result;
-  for (int i = 0; i < 6; ++i)
-    result[i] = history_[element].stress[i][point];
-  return result;
-}
-
-Stress ExplicitBody::average_stress(const std::size_t element) const
-{
-  Stress result;
-  for (int i = 0; i < 6; ++i)
-    result[i] = sum(geometry_[element].volume_fraction * history_[element].stress[i]);
-  return result;
-}
-
 Stress ExplicitBody::average_stress() const
 {
   Stress result{};
   double volume = 0;
   for (std::size_t e = 0; e < n_elements(); ++e)
   {
+    const Stress stress = state_of(e).stress;
     for (int i = 0; i < 6; ++i)
-      result[i] += sum(geometry_[e].volume * history_[e].stress[i]);
-    volume += sum(geometry_[e].volume);
+      result[i] += elements_->volume(e) * stress[i];
+    volume += elements_->volume(e);
   }
   for (double &component : result)
     component /= volume;
   return result;
 }
 
-double ExplicitBody::elastic_energy() const
-{
-  double energy = 0;
-  for (std::size_t e = 0; e < n_elements(); ++e)
-    for (int point = 0; point < hexahedron::n_points; ++point)
-      energy += geometry_[e].share_volume[point] * material_.elastic_energy_density(stress(e, point));
-  return energy;
-}
-
-double ExplicitBody::plastic_energy() const
-{
-  double energy = 0;
-  for (const auto &history : history_)
-    energy += sum(history.dissipated_energy);
-  return energy;
-}
-
 BodyEnergy ExplicitBody::energy() const
 {
   BodyEnergy energy;
   energy.kinetic = ledger_.kinetic;
-  energy.elastic = elastic_energy();
-  energy.plastic_dissipation = plastic_energy();
+  energy.elastic = elements_->elastic_energy();
+  energy.plastic_dissipation = elements_->dissipated_energy();
   energy.viscous_dissipation = ledger_.here.viscous;
   energy.boundary_work = ledger_.here.boundary;
   energy.gravity_work = ledger_.here.gravity;
@@ -458,15 +413,18 @@ bool ExplicitBody::is_finite() const
 std::vector<std::pair<std::string, std::span<double>>> ExplicitBody::state()
 {
   static_assert(sizeof(Ledger) % sizeof(double) == 0);
-  return {{"displacement", doubles_of(displacement_)},
-          {"displacement_of_stress", doubles_of(displacement_of_stress_)},
-          {"velocity", doubles_of(velocity_)},
-          {"internal_force", doubles_of(internal_force_)},
-          {"external_force", doubles_of(external_force_)},
-          {"reaction_force", doubles_of(reaction_force_)},
-          {"element_history", doubles_of(history_)},
-          {"constraint_velocity", {constraint_velocity_.data(), constraint_velocity_.size()}},
-          {"ledger", {reinterpret_cast<double *>(&ledger_), sizeof(Ledger) / sizeof(double)}}};
+  std::vector<std::pair<std::string, std::span<double>>> result{
+      {"displacement", doubles_of(displacement_)},
+      {"displacement_of_stress", doubles_of(displacement_of_stress_)},
+      {"velocity", doubles_of(velocity_)},
+      {"internal_force", doubles_of(internal_force_)},
+      {"external_force", doubles_of(external_force_)},
+      {"reaction_force", doubles_of(reaction_force_)},
+      {"constraint_velocity", {constraint_velocity_.data(), constraint_velocity_.size()}},
+      {"ledger", {reinterpret_cast<double *>(&ledger_), sizeof(Ledger) / sizeof(double)}}};
+  for (auto &view : elements_->state())
+    result.push_back(std::move(view));
+  return result;
 }
 
 } // namespace bergamo::fe

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "fe_dealii/body_energy.h"
-#include "fe_dealii/element/hexahedron.h"
-#include "fe_dealii/material/mohr_coulomb.h"
+#include "fe_dealii/element/element_group.h"
+#include "fe_dealii/material/material.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -27,16 +27,17 @@ namespace bergamo::fe
 
 struct ExplicitBodyParameters
 {
-  MohrCoulombParameters material;
+  Material material = MohrCoulomb(MohrCoulombParameters());
+  unsigned int degree = 1;                ///< of the elements: 1 has 8 nodes, 2 has 27
   std::array<double, 3> gravity{0, 0, 0}; ///< [m/s²]
   double damping = 0;                     ///< α of the force −α m v [1/s], >= 0
-  double initial_pressure = 0;            ///< p0 of the uniform initial stress −p0 I [Pa], >= −c cot φ
+  double initial_pressure = 0;            ///< p0 of the uniform initial stress −p0 I [Pa], see make_solid_elements()
 
   /// Throws ParameterError.
   void validate() const;
 };
 
-/// A continuum body of trilinear B-bar hexahedra with a Mohr–Coulomb material, moved by the explicit leapfrog.
+/// A continuum body of hexahedra of one material, moved by the explicit leapfrog.
 ///
 /// Global frame, SI units. Dof 3*node + component. Displacement, forces and stress live at whole steps, velocity at
 /// half steps. One step:
@@ -55,6 +56,7 @@ public:
   /// @{
 
   /// Internal forces [N] and stresses of the present displacement; the strain increment is that since the last call.
+  /// Throws AnalysisError, with its place, where an element has turned inside out.
   void compute_internal_force();
 
   /// v⁺ from v⁻ and the forces: m (v⁺ − v⁻)/dt = f_ext + m g − f_int − α m (v⁻ + v⁺)/2. The damping is centred: it adds
@@ -88,8 +90,8 @@ public:
 
   /// Share 1 − w of the continuum where particles carry the rest (Arlequin weight w, one per node, in [0, 1]):
   /// interpolated to the quadrature points, where it multiplies mass, internal force and gravity. Call before the first
-  /// step. Throws ParameterError for a wrong length, a weight outside [0, 1] or a node left without mass: bound the
-  /// weights away from 1.
+  /// step. Throws ParameterError for a wrong length, a weight outside [0, 1], a node left without mass (bound the
+  /// weights away from 1) or a material of large strain.
   void set_share(std::span<const double> nodal_weight);
 
   /// @name Nodal vectors, length 3 * n_nodes()
@@ -108,29 +110,27 @@ public:
   /// @name Mesh
   /// @{
   std::size_t n_nodes() const { return node_position_.size(); }
-  std::size_t n_elements() const { return element_nodes_.size(); }
-  const std::vector<std::array<double, 3>> &node_position() const { return node_position_; }       ///< reference [m]
-  const std::vector<std::array<unsigned int, 8>> &element_nodes() const { return element_nodes_; } ///< deal.II's order
+  std::size_t n_elements() const { return elements_->size(); }
+  const std::vector<std::array<double, 3>> &node_position() const { return node_position_; } ///< reference [m]
+  /// Nodes of an element, in deal.II's order of the element's shape functions: the corners first.
+  std::span<const unsigned int> element_nodes(const std::size_t element) const { return elements_->nodes(element); }
   /// Nodes of a boundary, ascending; ParameterError where the mesh has no such boundary.
   std::vector<unsigned int> boundary_nodes(unsigned int boundary_id) const;
-  /// Faces of a boundary, four nodes each, counterclockwise seen from outside.
+  /// Faces of a boundary by their corners, counterclockwise seen from outside.
   std::vector<std::array<unsigned int, 4>> boundary_faces(unsigned int boundary_id) const;
-  /// Numbers the vectors above: FESystem(FE_Q(1), 3) on the body's own copy of the mesh.
+  /// Numbers the vectors above: FESystem(FE_Q(degree), 3) on the body's own copy of the mesh.
   const dealii::DoFHandler<3, 3> &dof_handler() const;
   /// @}
 
   /// @name Elements
   /// @{
-  const MohrCoulomb &material() const { return material_; }
-  const std::vector<hexahedron::Geometry> &geometry() const { return geometry_; }
-  const std::vector<hexahedron::History> &history() const { return history_; }
-  Sector sector(std::size_t element, std::size_t point) const
+  const ElementGroup &elements() const { return *elements_; }
+  const Material &material() const { return parameters_.material; }
+  ElementState state_of(const std::size_t element) const
   {
-    return sector_[hexahedron::n_points * element + point];
+    return elements_->state_of(element, displacement_of_stress_.begin());
   }
-  Stress stress(std::size_t element, std::size_t point) const;
-  Stress average_stress(std::size_t element) const; ///< volume average over one element
-  Stress average_stress() const;                    ///< volume average over the body, whatever the share
+  Stress average_stress() const; ///< volume average over the body, whatever the share
   /// @}
 
   /// Energies at the last kick. Call between a kick and the next compute_internal_force().
@@ -139,30 +139,22 @@ public:
   bool is_finite() const;      ///< false once a displacement or velocity is NaN or infinite
 
   /// Everything that changes from step to step, by name, as views. Restoring the values in a body that was set up in
-  /// the same way (mesh, parameters, constraints, share) goes on with the same bits. sector() is not part of it: the
-  /// next compute_internal_force() finds it anew.
+  /// the same way (mesh, parameters, constraints, share) goes on with the same bits.
   std::vector<std::pair<std::string, std::span<double>>> state();
 
 private:
   struct Mesh;
 
   void gather_mass();
-  double elastic_energy() const;
-  double plastic_energy() const;
+  [[noreturn]] void report_inversion(std::size_t element) const;
 
   std::unique_ptr<Mesh> mesh_;
   ExplicitBodyParameters parameters_;
-  MohrCoulomb material_;
 
   std::vector<std::array<double, 3>> node_position_;
-  std::vector<std::array<unsigned int, 8>> element_nodes_;
+  std::unique_ptr<ElementGroup> elements_;
   std::vector<std::size_t> slot_head_; // slots of node i: slot_[slot_head_[i]] .. slot_[slot_head_[i + 1]]
-  std::vector<unsigned int> slot_;     // 8 * element + local node, ascending
-
-  std::vector<hexahedron::Geometry> geometry_;
-  std::vector<hexahedron::History> history_;
-  std::vector<Sector> sector_;
-  std::vector<double> element_force_; // 24 per element
+  std::vector<unsigned int> slot_;     // places of the node in elements_->nodes(), ascending
 
   dealii::Vector<double> displacement_, velocity_, internal_force_, external_force_, reaction_force_, mass_;
   dealii::Vector<double> displacement_of_stress_; // where the stresses were computed last

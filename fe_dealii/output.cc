@@ -2,6 +2,7 @@
 
 #include "fe_dealii/error.h"
 #include "fe_dealii/explicit_body.h"
+#include "fe_dealii/material/principal.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/numerics/data_out.h>
@@ -35,7 +36,8 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
     data.reinit(body.n_elements());
   for (std::size_t e = 0; e < body.n_elements(); ++e)
   {
-    const Stress stress = body.average_stress(e);
+    const ElementState state = body.state_of(e);
+    const Stress &stress = state.stress;
     const PrincipalFrame<double> frame = principal_frame(stress);
     for (int i = 0; i < 6; ++i)
       cell_data[i][e] = stress[i];
@@ -43,8 +45,8 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
       cell_data[6 + k][e] = frame.value[k];
     cell_data[9][e] = -mean_stress(stress);
     cell_data[10][e] = std::sqrt(3 * second_invariant(stress));
-    cell_data[11][e] = body.material().yield_function(stress);
-    cell_data[12][e] = sum(body.geometry()[e].volume_fraction * body.history()[e].plastic_strain);
+    cell_data[11][e] = state.yield_function;
+    cell_data[12][e] = state.plastic_strain;
   }
 
   dealii::DataOut<3> output;

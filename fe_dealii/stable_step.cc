@@ -12,16 +12,12 @@ namespace bergamo::fe
 namespace
 {
 
-constexpr int n = hexahedron::n_dofs;
-
-// Upper bound on the largest eigenvalue of a symmetric positive semi-definite matrix A, which is overwritten. With
-// T_m = tr A^m, (T_2m/T_m)^(1/m) <= λ <= T_m^(1/m): squaring A closes the bracket from both sides, where a power
+// Upper bound on the largest eigenvalue of a symmetric positive semi-definite matrix A of n rows, which is overwritten.
+// With T_m = tr A^m, (T_2m/T_m)^(1/m) <= λ <= T_m^(1/m): squaring A closes the bracket from both sides, where a power
 // iteration would come from below, the unsafe side, and may miss a mode.
-double largest_eigenvalue_bound(double (&a)[n][n])
+double largest_eigenvalue_bound(std::vector<double> &matrix, const std::size_t n)
 {
-  double(*matrix)[n] = a;
-  double scratch[n][n];
-  double(*square)[n] = scratch;
+  std::vector<double> square(n * n);
   double log_scale = 0; // the power of A is matrix * exp(log_scale)
   double upper = 0;
   double power = 1;
@@ -29,8 +25,8 @@ double largest_eigenvalue_bound(double (&a)[n][n])
   for (int squaring = 0; squaring < 14; ++squaring)
   {
     double trace = 0;
-    for (int i = 0; i < n; ++i)
-      trace += matrix[i][i];
+    for (std::size_t i = 0; i < n; ++i)
+      trace += matrix[n * i + i];
     if (!(trace > 0))
       return 0;
     const double log_trace = log_scale + std::log(trace);
@@ -42,18 +38,14 @@ double largest_eigenvalue_bound(double (&a)[n][n])
         break;
     }
     log_trace_of_half = log_trace;
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
-        // Tiny entries would sink into slow denormal numbers; against a trace of 1 they are nothing.
-        matrix[i][j] = std::abs(matrix[i][j]) > 1e-60 * trace ? matrix[i][j] / trace : 0;
-    for (int i = 0; i < n; ++i)
-    {
-      double row[n] = {};
-      for (int k = 0; k < n; ++k)
-        for (int j = 0; j < n; ++j)
-          row[j] += matrix[i][k] * matrix[k][j];
-      std::copy(row, row + n, square[i]);
-    }
+    for (double &entry : matrix)
+      // Tiny entries would sink into slow denormal numbers; against a trace of 1 they are nothing.
+      entry = std::abs(entry) > 1e-60 * trace ? entry / trace : 0;
+    std::fill(square.begin(), square.end(), 0.);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t j = 0; j < n; ++j)
+          square[n * i + j] += matrix[n * i + k] * matrix[n * k + j];
     std::swap(matrix, square);
     log_scale = 2 * log_trace;
     power *= 2;
@@ -63,16 +55,17 @@ double largest_eigenvalue_bound(double (&a)[n][n])
 
 double element_eigenvalue(const ExplicitBody &body, const std::size_t element)
 {
-  const hexahedron::Geometry &geometry = body.geometry()[element];
-  double matrix[n][n], mass[hexahedron::n_nodes];
-  hexahedron::elastic_stiffness(body.material(), geometry, &matrix[0][0]);
-  hexahedron::lumped_mass(body.material().density(), geometry, mass);
+  const ElementGroup &elements = body.elements();
+  const std::size_t n = elements.dofs_per_element();
+  std::vector<double> matrix(n * n), mass(elements.nodes_per_element());
+  elements.stiffness(element, body.displacement().begin(), matrix.data());
+  elements.lumped_mass(element, mass.data());
   if (!(mass[0] > 0)) // no share in the continuum
     return 0;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      matrix[i][j] /= std::sqrt(mass[i / 3] * mass[j / 3]);
-  return largest_eigenvalue_bound(matrix);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      matrix[n * i + j] /= std::sqrt(mass[i / 3] * mass[j / 3]);
+  return largest_eigenvalue_bound(matrix, n);
 }
 
 } // namespace

@@ -14,7 +14,8 @@ struct StableStep
   std::size_t element;       ///< the element that sets it
 };
 
-/// Stable time step of a body in its elastic state (plastic flow only softens it). No eigenvalue of the body exceeds
+/// Stable time step of a body in its elastic state at its present displacement (plastic flow only softens it). A
+/// stretched state may stiffen: ask again during a run of large strain. No eigenvalue of the body exceeds
 /// the largest one of its elements, K_e x = λ M_e x with the lumped element mass (Belytschko, Liu, Moran 2000,
 /// sec. 6.2; Wellmann 2.58). Each λ_e is bounded from above, by at most 0.4 %. Prescribed velocities and damping do not
 /// lower it.

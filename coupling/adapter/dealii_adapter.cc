@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <string>
 
 namespace bergamo::coupling
 {
@@ -67,6 +68,10 @@ bool find_in_cell(const Cell &cell, const dem::Vec3 &x, dealii::Point<3> &unit)
 Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::int64_t> id,
                      const std::span<const dem::Vec3> position, const std::span<const dem::Superquadric> shape)
 {
+  if (body.elements().nodes_per_element() != 8)
+    throw std::invalid_argument("grains overlap a continuum with elements of " +
+                                std::to_string(body.elements().nodes_per_element()) +
+                                " nodes; choose elements of degree 1, with 8 nodes");
   Overlap overlap;
   std::map<unsigned int, int> local_node; // node of the mesh -> place in overlap.nodes
   std::map<unsigned int, Cell> coupled_cells;
@@ -90,7 +95,7 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
       dealii::Point<3> unit;
       if (!box.may_hold(position[i]) || !find_in_cell(box.cell, position[i], unit))
         continue;
-      const auto &nodes = body.element_nodes()[box.element];
+      const auto nodes = body.element_nodes(box.element);
       for (unsigned int v = 0; v < 8; ++v)
       {
         overlap.shape_node.push_back(place_of(nodes[v]));
@@ -112,7 +117,7 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
   for (const auto &[element, cell] : coupled_cells)
   {
     values.reinit(cell);
-    const auto &nodes = body.element_nodes()[element];
+    const auto nodes = body.element_nodes(element);
     for (const unsigned int q : values.quadrature_point_indices())
       for (unsigned int a = 0; a < 8; ++a)
         for (unsigned int b = 0; b < 8; ++b)

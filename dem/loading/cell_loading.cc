@@ -98,8 +98,8 @@ void CellLoading::check_rest(Simulation &simulation, const Vec3 &stress)
   now.n_checks_passed = holds && unbalanced_force(simulation) < s.force_tolerance ? now.n_checks_passed + 1. : 0.;
 }
 
-/// Contacts grow stiffer under pressure, as its cube root (Hertz): the time step stays a fifth below the stable one, also
-/// of the pressure to come.
+/// Contacts grow stiffer under pressure, as its cube root (Hertz): the time step stays a fifth below the stable one,
+/// also of the pressure to come.
 void CellLoading::follow_stable_step(Simulation &simulation) const
 {
   constexpr double margin = 0.8, least_change = 0.02;

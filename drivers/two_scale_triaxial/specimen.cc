@@ -30,7 +30,7 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
   fe::make_box(mesh_parameters, mesh);
 
   fe::ExplicitBodyParameters body;
-  body.material = parameters.continuum;
+  body.material = fe::MohrCoulomb(parameters.continuum);
   body.damping = parameters.continuum_damping;
   body.initial_pressure = parameters.compression.pressure;
   return std::make_unique<fe::ExplicitBody>(mesh, body);

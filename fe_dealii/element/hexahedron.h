@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe_dealii/element/points.h"
+#include "fe_dealii/material/linear_elastic.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 
 /// Trilinear hexahedron with 2×2×2 points and a mean dilatation (B-bar: Hughes, Generalization of selective
@@ -89,13 +90,24 @@ inline void internal_force(const Geometry &geometry, const Points (&stress)[6], 
 }
 
 /// Elastic stress of a strain at all points.
-inline void elastic_stress(const MohrCoulomb &material, const Points (&strain)[6], Points (&stress)[6])
+template <class Law>
+void elastic_stress(const Law &material, const Points (&strain)[6], Points (&stress)[6])
 {
   const Points volumetric = material.lame_modulus() * (strain[0] + strain[1] + strain[2]);
   for (int i = 0; i < 3; ++i)
     stress[i] = 2 * material.shear_modulus() * strain[i] + volumetric;
   for (int i = 3; i < 6; ++i)
     stress[i] = material.shear_modulus() * strain[i];
+}
+
+/// Carries the stresses over a strain increment.
+inline void update_stress(const LinearElastic &material, const Geometry &, const Points (&strain_increment)[6],
+                          History &history, Sector *)
+{
+  Points increment[6];
+  elastic_stress(material, strain_increment, increment);
+  for (int i = 0; i < 6; ++i)
+    history.stress[i] += increment[i];
 }
 
 /// Carries the stresses over a strain increment. `sector` has one entry per point.
@@ -147,9 +159,31 @@ inline void update_stress(const MohrCoulomb &material, const Geometry &geometry,
 }
 
 /// Elastic stiffness [N/m], row-major 24×24, share included.
-void elastic_stiffness(const MohrCoulomb &material, const Geometry &geometry, double *stiffness);
+template <class Law>
+void elastic_stiffness(const Law &material, const Geometry &geometry, double *stiffness)
+{
+  for (int column = 0; column < n_dofs; ++column)
+  {
+    double unit[n_dofs] = {}, force[n_dofs];
+    unit[column] = 1;
+    Points unit_strain[6], stress[6];
+    strain(geometry, unit, unit_strain);
+    elastic_stress(material, unit_strain, stress);
+    internal_force(geometry, stress, force);
+    for (int row = 0; row < n_dofs; ++row)
+      stiffness[n_dofs * row + column] = force[row];
+  }
+}
 
-/// Lumped mass per node [kg]: ∫ N_node ρ share dV.
-void lumped_mass(double density, const Geometry &geometry, double (&mass)[n_nodes]);
+/// Lumped mass per node [kg]: ∫ N_node ρ share dV, positive since the shape functions are.
+inline void lumped_mass(const double density, const Geometry &geometry, double *mass)
+{
+  for (int node = 0; node < n_nodes; ++node)
+  {
+    mass[node] = 0;
+    for (int point = 0; point < n_points; ++point)
+      mass[node] += density * shape_value(node, point) * geometry.share_volume[point];
+  }
+}
 
 } // namespace bergamo::fe::hexahedron

@@ -34,7 +34,7 @@ namespace detail
 template <class Pack, class Function>
 Pack each(const Pack &x, const Function &function)
 {
-  Pack result;
+  Pack result = x;
   for (std::size_t i = 0; i < sizeof(Pack) / sizeof(double); ++i)
     result[i] = function(x[i]);
   return result;

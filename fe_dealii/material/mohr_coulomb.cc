@@ -52,11 +52,6 @@ MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters) : parameters_(
   left_ = 2 * shear_ * (1 - sum - product / 3) + 4 * bulk_ * product;
 }
 
-double MohrCoulomb::p_wave_speed() const
-{
-  return std::sqrt((bulk_ + 4 * shear_ / 3) / parameters_.density);
-}
-
 double MohrCoulomb::yield_function(const Stress &stress) const
 {
   const PrincipalFrame<double> frame = principal_frame(stress);

@@ -3,6 +3,7 @@
 #include "fe_dealii/material/principal.h"
 #include "fe_dealii/material/tensor.h"
 
+#include <cmath>
 #include <cstdint>
 
 namespace bergamo::fe
@@ -88,8 +89,7 @@ public:
   /// ½ σ : C⁻¹ : σ [J/m³].
   double elastic_energy_density(const Stress &stress) const
   {
-    const double mean = mean_stress(stress);
-    return second_invariant(stress) / (2 * shear_) + mean * mean / (2 * bulk_);
+    return fe::elastic_energy_density(stress, bulk_, shear_);
   }
 
   /// Sufficient for Φ <= 0, without eigenvalues. In invariants Φ/2 = sqrt(J2)(cos θ − sin θ sin φ/√3) + p̂ sin φ −
@@ -108,7 +108,10 @@ public:
   double shear_modulus() const { return shear_; }        ///< G [Pa]
   double lame_modulus() const { return lame_; }          ///< λ = K − 2G/3 [Pa]
   double density() const { return parameters_.density; } ///< [kg/m³]
-  double p_wave_speed() const;                           ///< sqrt((K + 4G/3)/ρ) [m/s]
+  double apex() const
+  {
+    return parameters_.friction_angle > 0 ? apex_ : HUGE_VAL;
+  } ///< largest mean stress, c cot φ [Pa]
   const MohrCoulombParameters &parameters() const { return parameters_; }
 
 private:

@@ -36,6 +36,13 @@ inline double second_invariant(const Stress &stress)
   return 0.5 * (x * x + y * y + z * z) + stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5];
 }
 
+/// ½ σ : C⁻¹ : σ of an isotropic elastic solid [J/m³]. @param bulk, shear moduli K, G [Pa]
+inline double elastic_energy_density(const Stress &stress, const double bulk, const double shear)
+{
+  const double mean = mean_stress(stress);
+  return second_invariant(stress) / (2 * shear) + mean * mean / (2 * bulk);
+}
+
 /// Equivalent shear strain sqrt(2/3 e:e) of the deviator e [-]; for uniaxial isochoric strain it is the axial strain.
 inline double equivalent_strain(const Strain &strain)
 {

@@ -54,7 +54,7 @@ TEST_CASE("Box mesh: size, boundaries and outward faces", "[fe]")
   double mass = 0;
   for (std::size_t node = 0; node < body.n_nodes(); ++node)
     mass += body.mass()[3 * node];
-  CHECK(mass == Approx(24 * body.material().density()));
+  CHECK(mass == Approx(24 * density(body.material())));
 }
 
 TEST_CASE("Mesh and body: user's mistakes are named", "[fe]")

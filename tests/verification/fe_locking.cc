@@ -1,6 +1,7 @@
 // Bending of a nearly incompressible plate strip against the exact plane-strain solution, mean dilatation against full
 // integration. Timoshenko & Goodier, Theory of Elasticity, sec. 2.21 (pure bending), plane-strain moduli.
 #include "fe_dealii/box_mesh.h"
+#include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/explicit_body.h"
 
 #include <deal.II/grid/tria.h>
@@ -45,11 +46,12 @@ void full_stiffness(const MohrCoulomb &material, const hexahedron::Geometry &geo
 double bending_ratio(const double poisson_ratio, const unsigned int n_depth, const bool mean_dilatation)
 {
   ExplicitBodyParameters parameters;
-  parameters.material.poisson_ratio = poisson_ratio;
-  parameters.material.cohesion = 1e12;
+  const MohrCoulombParameters plate{.poisson_ratio = poisson_ratio, .cohesion = 1e12};
+  parameters.material = MohrCoulomb(plate);
   dealii::Triangulation<3> mesh;
   make_box({{0, -depth / 2, 0}, {length, depth / 2, 0.25}, {4 * n_depth, n_depth, 1}}, mesh);
   const ExplicitBody body(mesh, parameters);
+  const auto &elements = dynamic_cast<const SmallStrainHexahedra<MohrCoulomb> &>(body.elements());
 
   // Free dofs: plane strain (u_z = 0), u_x = 0 at x = 0, u_y = 0 on its middle line.
   std::vector<int> number(3 * body.n_nodes(), -1);
@@ -68,17 +70,17 @@ double bending_ratio(const double poisson_ratio, const unsigned int n_depth, con
   {
     double k[24][24];
     if (mean_dilatation)
-      hexahedron::elastic_stiffness(body.material(), body.geometry()[e], &k[0][0]);
+      body.elements().stiffness(e, body.displacement().begin(), &k[0][0]);
     else
-      full_stiffness(body.material(), body.geometry()[e], k);
-    const auto &nodes = body.element_nodes()[e];
+      full_stiffness(elements.law(), elements.geometry(e), k);
+    const auto nodes = body.element_nodes(e);
     for (int i = 0; i < 24; ++i)
       for (int j = 0; j < 24; ++j)
         if (const int r = number[3 * nodes[i / 3] + i % 3], c = number[3 * nodes[j / 3] + j % 3]; r >= 0 && c >= 0)
           matrix(r, c) += k[i][j];
   }
   // σ_xx = −κ E/(1 − ν²) y on the end face, consistent nodal forces: ∫ N σ over the depth, h/6 (2 σ_a + σ_b).
-  const double modulus = parameters.material.young_modulus / (1 - poisson_ratio * poisson_ratio);
+  const double modulus = plate.young_modulus / (1 - poisson_ratio * poisson_ratio);
   for (const auto &face : body.boundary_faces(1))
     for (const unsigned int node : face)
     {

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "fe_dealii/material/tensor.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bergamo::fe
+{
+
+/// An element's mean state, for output.
+struct ElementState
+{
+  Stress stress{};           ///< Cauchy, mean over the volume [Pa]
+  double yield_function = 0; ///< of the mean stress [Pa]; 0 without a yield surface
+  double plastic_strain = 0; ///< mean of the accumulated equivalent strain [-]
+};
+
+/// Elements of one shape and one law: strains to stresses to nodal forces. Calls are virtual by blocks of elements.
+/// Displacements are arrays of the whole body, 3*node + component [m].
+class ElementGroup
+{
+public:
+  /// @param nodes of the elements one after the other
+  ElementGroup(int nodes_per_element, std::vector<unsigned int> nodes)
+      : n_element_nodes(nodes_per_element), node(std::move(nodes)), force_of_dof(3 * node.size())
+  {
+  }
+  virtual ~ElementGroup() = default;
+
+  int nodes_per_element() const { return n_element_nodes; }
+  int dofs_per_element() const { return 3 * n_element_nodes; }
+  std::size_t size() const { return node.size() / n_element_nodes; }
+  std::span<const unsigned int> nodes(const std::size_t element) const
+  {
+    return {&node[element * n_element_nodes], std::size_t(n_element_nodes)};
+  }
+  std::span<const unsigned int> nodes() const { return node; }
+
+  /// Nodal forces of the elements as last computed, in the order of nodes(), three each [N].
+  std::span<const double> forces() const { return force_of_dof; }
+
+  /// Computes the forces of the elements from begin to end. Blocks may run at the same time.
+  /// @param before displacement at the last call
+  /// @return the first element that has turned inside out
+  virtual std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
+                                                    const double *before) = 0;
+
+  /// Lumped mass at the nodes of an element, all positive [kg].
+  virtual void lumped_mass(std::size_t element, double *mass) const = 0;
+
+  /// Elastic stiffness at a displacement, row-major [N/m].
+  virtual void stiffness(std::size_t element, const double *displacement, double *matrix) const = 0;
+
+  /// Share of the body in what a two-scale model weighs, at the nodes of the whole body, in [0, 1]: multiplies mass and
+  /// forces. Throws ParameterError where the elements know no shares.
+  virtual void set_share(std::span<const double> nodal_share) = 0;
+
+  virtual double volume(std::size_t element) const = 0; ///< in the reference configuration, whatever the share [m³]
+  virtual ElementState state_of(std::size_t element, const double *displacement) const = 0;
+  virtual double elastic_energy() const = 0;    ///< at the last compute_forces() [J]
+  virtual double dissipated_energy() const = 0; ///< by plastic flow since the start [J]
+
+  /// What changes from step to step and a restart needs, as views.
+  virtual std::vector<std::pair<std::string, std::span<double>>> state() = 0;
+
+protected:
+  double *force(const std::size_t element) { return &force_of_dof[dofs_per_element() * element]; }
+
+  /// The dofs of an element, gathered from those of the body.
+  void gather(const std::size_t element, const double *of_body, double *of_element) const
+  {
+    const unsigned int *const first = &node[element * n_element_nodes];
+    for (int k = 0; k < n_element_nodes; ++k)
+      for (int i = 0; i < 3; ++i)
+        of_element[3 * k + i] = of_body[3 * std::size_t(first[k]) + i];
+  }
+
+private:
+  int n_element_nodes;
+  std::vector<unsigned int> node;
+  std::vector<double> force_of_dof;
+};
+
+} // namespace bergamo::fe

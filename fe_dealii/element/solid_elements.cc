@@ -1,0 +1,170 @@
+#include "fe_dealii/element/solid_elements.h"
+
+#include "fe_dealii/element/finite_strain_solid.h"
+#include "fe_dealii/element/small_strain_hexahedra.h"
+#include "fe_dealii/error.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/tria.h>
+
+#include <sstream>
+
+namespace bergamo::fe
+{
+namespace
+{
+
+/// A geometry with packs of points, for all cells.
+/// @param take take(cell, values): called for each cell, in the order of the cells
+template <class Take>
+void for_each_cell(const dealii::DoFHandler<3> &dof_handler, const unsigned int degree, const Take &take)
+{
+  const dealii::FE_Q<3> scalar(degree);
+  const dealii::QGauss<3> quadrature(degree + 1);
+  dealii::FEValues<3> values(scalar, quadrature,
+                             dealii::update_values | dealii::update_gradients | dealii::update_JxW_values);
+  for (const auto &cell : dof_handler.get_triangulation().active_cell_iterators())
+  {
+    values.reinit(cell);
+    for (unsigned int point = 0; point < values.n_quadrature_points; ++point)
+      if (!(values.JxW(point) > 0))
+      {
+        std::ostringstream message;
+        message << "mesh: cell " << cell->active_cell_index() << " at " << cell->center()
+                << " is turned inside out at one of its corners (volume " << values.JxW(point)
+                << " m^3 at a quadrature point); repair the mesh";
+        throw ParameterError(message.str());
+      }
+    take(values);
+  }
+}
+
+/// Nodes of all cells. Relies on the dof being 3 node + component, which is deal.II's order up to degree 2.
+std::vector<unsigned int> element_nodes(const dealii::DoFHandler<3> &dof_handler)
+{
+  const auto &element = dof_handler.get_fe();
+  const unsigned int n_nodes = element.dofs_per_cell / 3;
+  std::vector<unsigned int> nodes;
+  nodes.reserve(std::size_t(n_nodes) * dof_handler.get_triangulation().n_active_cells());
+  std::vector<dealii::types::global_dof_index> dofs(element.dofs_per_cell);
+  for (const auto &cell : dof_handler.active_cell_iterators())
+  {
+    cell->get_dof_indices(dofs);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+    {
+      const auto first = dofs[element.component_to_system_index(0, node)];
+      if (first % 3 != 0 || dofs[element.component_to_system_index(1, node)] != first + 1 ||
+          dofs[element.component_to_system_index(2, node)] != first + 2)
+        throw AnalysisError("continuum: this version of deal.II numbers the displacement components of a node apart; "
+                            "use 9.4, or renumber in element_nodes()");
+      nodes.push_back(first / 3);
+    }
+  }
+  return nodes;
+}
+
+template <class Law>
+std::unique_ptr<ElementGroup> small_strain(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+                                           const double initial_pressure)
+{
+  std::vector<hexahedron::Geometry> geometries;
+  for_each_cell(dof_handler, 1,
+                [&](const dealii::FEValues<3> &values)
+                {
+                  hexahedron::Geometry geometry;
+                  for (int point = 0; point < hexahedron::n_points; ++point)
+                  {
+                    geometry.volume[point] = values.JxW(point);
+                    for (int node = 0; node < hexahedron::n_nodes; ++node)
+                      for (int i = 0; i < 3; ++i)
+                        geometry.gradient[i][node][point] = values.shape_grad(node, point)[i];
+                  }
+                  geometry.share_volume = geometry.volume;
+                  geometry.volume_fraction = geometry.volume / sum(geometry.volume);
+                  geometries.push_back(geometry);
+                });
+  return std::make_unique<SmallStrainHexahedra<Law>>(law, element_nodes(dof_handler), std::move(geometries),
+                                                     initial_pressure);
+}
+
+/// Diagonal of the consistent mass, scaled to the whole mass (Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4
+/// (1976) 245-249): positive for any element, where the row sum is not; on bricks it is Simpson's rule.
+template <class Law, int n_nodes>
+std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_handler, const Law &law)
+{
+  using Elements = FiniteStrainSolid<Law, n_nodes>;
+  std::vector<typename Elements::Geometry> geometries;
+  std::vector<double> mass_share;
+  for_each_cell(dof_handler, n_nodes == 8 ? 1 : 2,
+                [&](const dealii::FEValues<3> &values)
+                {
+                  typename Elements::Geometry geometry{};
+                  std::array<double, n_nodes> diagonal{};
+                  double whole = 0;
+                  for (unsigned int point = 0; point < values.n_quadrature_points; ++point)
+                  {
+                    const unsigned int pack = point / points_per_pack, lane = point % points_per_pack;
+                    geometry.volume[pack][lane] = values.JxW(point);
+                    for (int node = 0; node < n_nodes; ++node)
+                    {
+                      for (int i = 0; i < 3; ++i)
+                        geometry.gradient[pack][i][node][lane] = values.shape_grad(node, point)[i];
+                      const double value = values.shape_value(node, point);
+                      diagonal[node] += value * value * values.JxW(point);
+                    }
+                  }
+                  for (const double d : diagonal)
+                    whole += d;
+                  for (const double d : diagonal)
+                    mass_share.push_back(d / whole);
+                  geometries.push_back(geometry);
+                });
+  return std::make_unique<Elements>(law, element_nodes(dof_handler), std::move(geometries), std::move(mass_share));
+}
+
+struct Maker
+{
+  const dealii::DoFHandler<3> &dof_handler;
+  double initial_pressure;
+
+  unsigned int degree() const { return dof_handler.get_fe().degree; }
+
+  template <class Law>
+  std::unique_ptr<ElementGroup> of_small_strain(const Law &law) const
+  {
+    if (degree() != 1)
+      throw ParameterError("continuum: a law of small strain needs elements of 8 nodes; choose degree 1 instead of " +
+                           std::to_string(degree()));
+    return small_strain(dof_handler, law, initial_pressure);
+  }
+
+  template <class Law>
+  std::unique_ptr<ElementGroup> of_large_strain(const Law &law) const
+  {
+    if (initial_pressure != 0)
+      throw ParameterError("continuum: initial_pressure = " + std::to_string(initial_pressure) +
+                           " Pa in a law of large strain, which has no stress at rest; set it to 0");
+    if (degree() == 1)
+      return finite_strain<Law, 8>(dof_handler, law);
+    return finite_strain<Law, 27>(dof_handler, law);
+  }
+
+  std::unique_ptr<ElementGroup> operator()(const LinearElastic &law) const { return of_small_strain(law); }
+  std::unique_ptr<ElementGroup> operator()(const MohrCoulomb &law) const { return of_small_strain(law); }
+  std::unique_ptr<ElementGroup> operator()(const NeoHooke &law) const { return of_large_strain(law); }
+  std::unique_ptr<ElementGroup> operator()(const MooneyRivlin &law) const { return of_large_strain(law); }
+  std::unique_ptr<ElementGroup> operator()(const Ogden &law) const { return of_large_strain(law); }
+};
+
+} // namespace
+
+std::unique_ptr<ElementGroup> make_solid_elements(const dealii::DoFHandler<3, 3> &dof_handler, const Material &material,
+                                                  const double initial_pressure)
+{
+  return std::visit(Maker{dof_handler, initial_pressure}, material);
+}
+
+} // namespace bergamo::fe

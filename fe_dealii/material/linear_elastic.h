@@ -1,0 +1,26 @@
+#pragma once
+
+#include "fe_dealii/material/elastic_parameters.h"
+
+#include <cmath>
+
+namespace bergamo::fe
+{
+
+/// Hooke's isotropic law at small strain.
+class LinearElastic
+{
+public:
+  /// Throws ParameterError.
+  explicit LinearElastic(const ElasticParameters &parameters) : p(parameters) { p.validate("linear elastic material"); }
+
+  double shear_modulus() const { return p.shear_modulus(); }                       ///< G [Pa]
+  double bulk_modulus() const { return p.bulk_modulus(); }                         ///< K [Pa]
+  double lame_modulus() const { return bulk_modulus() - 2 * shear_modulus() / 3; } ///< λ [Pa]
+  double density() const { return p.density; }                                     ///< [kg/m³]
+
+private:
+  ElasticParameters p;
+};
+
+} // namespace bergamo::fe
