@@ -53,7 +53,7 @@ public:
   /// Lumped mass at the nodes of an element, all positive [kg].
   virtual void lumped_mass(std::size_t element, double *mass) const = 0;
 
-  /// Elastic stiffness at a displacement, row-major [N/m].
+  /// Elastic stiffness at a displacement, row-major [N/m]; of the stiffest point where it depends on the pressure.
   virtual void stiffness(std::size_t element, const double *displacement, double *matrix) const = 0;
 
   /// Share of the body in what a two-scale model weighs, at the nodes of the whole body, in [0, 1]: multiplies mass and
@@ -62,7 +62,8 @@ public:
 
   virtual double volume(std::size_t element) const = 0; ///< in the reference configuration, whatever the share [m³]
   virtual ElementState state_of(std::size_t element, const double *displacement) const = 0;
-  virtual double elastic_energy() const = 0;    ///< at the last compute_forces() [J]
+  /// At the last compute_forces() [J]; where the stiffness depends on the pressure, the elastic work since the start.
+  virtual double elastic_energy() const = 0;
   virtual double dissipated_energy() const = 0; ///< by plastic flow since the start [J]
 
   /// What changes from step to step and a restart needs, as views.

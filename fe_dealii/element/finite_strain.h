@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe_dealii/element/points.h"
+#include "fe_dealii/element/solid_geometry.h"
 #include "fe_dealii/material/hyperelastic.h"
 
 #include <algorithm>
@@ -10,17 +10,6 @@
 /// configuration, forces follow from the first Piola-Kirchhoff stress.
 namespace bergamo::fe::finite_strain
 {
-
-/// What an element is in the reference configuration.
-/// @tparam n_nodes of the element; @tparam n_packs of eight quadrature points
-template <int n_nodes, int n_packs>
-struct Geometry
-{
-  static constexpr int nodes = n_nodes, packs = n_packs;
-
-  Points gradient[n_packs][3][n_nodes]; ///< ∂N_node/∂X_component [1/m]; 0 at points of no volume
-  Points volume[n_packs];               ///< weight times Jacobian determinant [m³]
-};
 
 /// How an element takes the part U(J) of its material.
 enum class Dilatation
@@ -111,10 +100,7 @@ void tangent_stiffness(const Law &law, const Element &element, const Dilatation 
                        double *stiffness)
 {
   constexpr int n = 3 * Element::nodes;
-  double volume = 0.;
-  for (const Points &v : element.volume)
-    volume += sum(v);
-  const double step = 1e-5 * std::cbrt(volume);
+  const double step = 1e-5 * std::cbrt(element.whole_volume());
   double moved[n], more[n], less[n];
   std::copy(u, u + n, moved);
   for (int column = 0; column < n; ++column)

@@ -22,7 +22,7 @@ std::optional<std::size_t> FiniteStrainSolid<Law, n_nodes>::compute_forces(const
   {
     double u[3 * n_nodes];
     gather(e, displacement, u);
-    const finite_strain::Response response = internal_force(law_, geometry_[e], dilatation, u, force(e));
+    const finite_strain::Response response = finite_strain::internal_force(law_, geometry_[e], dilatation, u, force(e));
     energy_[e] = response.energy;
     if (!(response.smallest_ratio > 0))
       return e;
@@ -44,7 +44,7 @@ void FiniteStrainSolid<Law, n_nodes>::stiffness(const std::size_t element, const
 {
   double u[3 * n_nodes];
   gather(element, displacement, u);
-  tangent_stiffness(law_, geometry_[element], dilatation, u, matrix);
+  finite_strain::tangent_stiffness(law_, geometry_[element], dilatation, u, matrix);
 }
 
 template <class Law, int n_nodes>
@@ -55,15 +55,6 @@ void FiniteStrainSolid<Law, n_nodes>::set_share(std::span<const double>)
 }
 
 template <class Law, int n_nodes>
-double FiniteStrainSolid<Law, n_nodes>::volume(const std::size_t element) const
-{
-  double sum_of_packs = 0;
-  for (const Points &v : geometry_[element].volume)
-    sum_of_packs += sum(v);
-  return sum_of_packs;
-}
-
-template <class Law, int n_nodes>
 ElementState FiniteStrainSolid<Law, n_nodes>::state_of(const std::size_t element, const double *displacement) const
 {
   double u[3 * n_nodes], present_volume = 0;
@@ -71,14 +62,14 @@ ElementState FiniteStrainSolid<Law, n_nodes>::state_of(const std::size_t element
   const Geometry &geometry = geometry_[element];
   for (int pack = 0; pack < n_packs; ++pack)
   {
-    const Tensor3<Points> f = deformation_gradient(geometry, pack, u);
+    const Tensor3<Points> f = finite_strain::deformation_gradient(geometry, pack, u);
     present_volume += sum(geometry.volume[pack] * determinant(f, cofactor(f)));
   }
   ElementState state;
   constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
   for (int pack = 0; pack < n_packs; ++pack)
   {
-    const Tensor3<Points> f = deformation_gradient(geometry, pack, u), minors = cofactor(f);
+    const Tensor3<Points> f = finite_strain::deformation_gradient(geometry, pack, u), minors = cofactor(f);
     const Points ratio = determinant(f, minors);
     const Tensor3<Points> first_piola = law_.point_stress(f, minors, ratio);
     const Points pressure = dilatation == finite_strain::Dilatation::mean

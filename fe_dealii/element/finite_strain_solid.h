@@ -16,10 +16,10 @@ template <class Law, int n_nodes>
 class FiniteStrainSolid final : public ElementGroup
 {
 public:
-  static constexpr int n_packs = (n_nodes + points_per_pack - 1) / points_per_pack;
+  static constexpr int n_packs = packs_of(n_nodes);
   static constexpr finite_strain::Dilatation dilatation =
       n_nodes == 8 ? finite_strain::Dilatation::mean : finite_strain::Dilatation::point;
-  using Geometry = finite_strain::Geometry<n_nodes, n_packs>;
+  using Geometry = SolidGeometry<n_nodes, n_packs>;
 
   /// @param mass_share of each node in its element's mass, see lumped_mass(); as many as nodes
   FiniteStrainSolid(const Law &law, std::vector<unsigned int> nodes, std::vector<Geometry> geometry,
@@ -30,7 +30,7 @@ public:
   void lumped_mass(std::size_t element, double *mass) const override;
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
   void set_share(std::span<const double> nodal_share) override;
-  double volume(std::size_t element) const override;
+  double volume(const std::size_t element) const override { return geometry_[element].whole_volume(); }
   ElementState state_of(std::size_t element, const double *displacement) const override;
   double elastic_energy() const override;
   double dissipated_energy() const override { return 0; }

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "fe_dealii/element/points.h"
-#include "fe_dealii/material/linear_elastic.h"
-#include "fe_dealii/material/mohr_coulomb.h"
+#include "fe_dealii/element/stress_update.h"
 
 /// Trilinear hexahedron with 2×2×2 points and a mean dilatation (B-bar: Hughes, Generalization of selective
 /// integration procedures, Int. J. Numer. Meth. Eng. 15 (1980) 1413–1418), small strain, all geometry taken once in
@@ -22,14 +20,6 @@ struct Geometry
   Points volume;               ///< weight times Jacobian determinant [m³]
   Points share_volume;         ///< volume times the continuum's share there [m³]
   Points volume_fraction;      ///< volume over the element's volume [-]
-};
-
-/// What an element remembers.
-struct History
-{
-  Points stress[6];         ///< xx yy zz xy yz zx [Pa]
-  Points plastic_strain;    ///< accumulated equivalent_strain() of the plastic increments [-]
-  Points dissipated_energy; ///< accumulated plastic dissipation, share included [J]
 };
 
 /// N_node at a point, trilinear, 2×2×2 Gauss: one factor (1 ± 1/√3)/2 per axis.
@@ -87,75 +77,6 @@ inline void internal_force(const Geometry &geometry, const Points (&stress)[6], 
     force[3 * node + 1] = sum(xy * dx + yy * dy + yz * dz);
     force[3 * node + 2] = sum(zx * dx + yz * dy + zz * dz);
   }
-}
-
-/// Elastic stress of a strain at all points.
-template <class Law>
-void elastic_stress(const Law &material, const Points (&strain)[6], Points (&stress)[6])
-{
-  const Points volumetric = material.lame_modulus() * (strain[0] + strain[1] + strain[2]);
-  for (int i = 0; i < 3; ++i)
-    stress[i] = 2 * material.shear_modulus() * strain[i] + volumetric;
-  for (int i = 3; i < 6; ++i)
-    stress[i] = material.shear_modulus() * strain[i];
-}
-
-/// Carries the stresses over a strain increment.
-inline void update_stress(const LinearElastic &material, const Geometry &, const Points (&strain_increment)[6],
-                          History &history, Sector *)
-{
-  Points increment[6];
-  elastic_stress(material, strain_increment, increment);
-  for (int i = 0; i < 6; ++i)
-    history.stress[i] += increment[i];
-}
-
-/// Carries the stresses over a strain increment. `sector` has one entry per point.
-inline void update_stress(const MohrCoulomb &material, const Geometry &geometry, const Points (&strain_increment)[6],
-                          History &history, Sector *sector)
-{
-  Points trial[6];
-  elastic_stress(material, strain_increment, trial);
-  for (int i = 0; i < 6; ++i)
-    trial[i] += history.stress[i];
-  const Points mean = (trial[0] + trial[1] + trial[2]) / 3.;
-  const Points x = trial[0] - mean, y = trial[1] - mean, z = trial[2] - mean;
-  const Points j2 = (x * x + y * y + z * z) * 0.5 + trial[3] * trial[3] + trial[4] * trial[4] + trial[5] * trial[5];
-  const auto elastic = material.is_surely_elastic(mean, j2);
-  for (int point = 0; point < n_points; ++point)
-    sector[point] = Sector::elastic;
-  if (lanes::any(elastic == 0))
-  {
-    const PrincipalFrame<Points> frames = principal_frame<Points>(trial);
-    for (int point = 0; point < n_points; ++point)
-    {
-      if (elastic[point])
-        continue;
-      Stress stress_old, stress_trial;
-      for (int i = 0; i < 6; ++i)
-      {
-        stress_old[i] = history.stress[i][point];
-        stress_trial[i] = trial[i][point];
-      }
-      PrincipalFrame<double> frame;
-      for (int k = 0; k < 3; ++k)
-      {
-        frame.value[k] = frames.value[k][point];
-        for (int i = 0; i < 3; ++i)
-          frame.direction[k][i] = frames.direction[k][i][point];
-      }
-      const StressUpdate update = material.return_to_surface(stress_old, stress_trial, frame);
-      sector[point] = update.sector;
-      if (update.sector == Sector::elastic)
-        continue;
-      for (int i = 0; i < 6; ++i)
-        trial[i][point] = update.stress[i];
-      history.plastic_strain[point] += equivalent_strain(update.plastic_strain);
-      history.dissipated_energy[point] += geometry.share_volume[point] * update.plastic_dissipation;
-    }
-  }
-  for (int i = 0; i < 6; ++i)
-    history.stress[i] = trial[i];
 }
 
 /// Elastic stiffness [N/m], row-major 24×24, share included.

@@ -2,6 +2,7 @@
 
 #include "fe_dealii/element/finite_strain_solid.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
+#include "fe_dealii/element/small_strain_quadratic.h"
 #include "fe_dealii/error.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -10,6 +11,8 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/tria.h>
 
+#include <array>
+#include <numeric>
 #include <sstream>
 
 namespace bergamo::fe
@@ -17,8 +20,7 @@ namespace bergamo::fe
 namespace
 {
 
-/// A geometry with packs of points, for all cells.
-/// @param take take(cell, values): called for each cell, in the order of the cells
+/// @param take take(values): called with the values of each cell, in the order of the cells
 template <class Take>
 void for_each_cell(const dealii::DoFHandler<3> &dof_handler, const unsigned int degree, const Take &take)
 {
@@ -67,8 +69,8 @@ std::vector<unsigned int> element_nodes(const dealii::DoFHandler<3> &dof_handler
 }
 
 template <class Law>
-std::unique_ptr<ElementGroup> small_strain(const dealii::DoFHandler<3> &dof_handler, const Law &law,
-                                           const double initial_pressure)
+std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+                                                     const double initial_pressure)
 {
   std::vector<hexahedron::Geometry> geometries;
   for_each_cell(dof_handler, 1,
@@ -90,39 +92,60 @@ std::unique_ptr<ElementGroup> small_strain(const dealii::DoFHandler<3> &dof_hand
                                                      initial_pressure);
 }
 
-/// Diagonal of the consistent mass, scaled to the whole mass (Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4
-/// (1976) 245-249): positive for any element, where the row sum is not; on bricks it is Simpson's rule.
+/// Geometries and lumped masses of elements that are integrated in full.
+template <int n_nodes>
+struct Solids
+{
+  using Geometry = SolidGeometry<n_nodes, packs_of(n_nodes)>;
+  std::vector<Geometry> geometry;
+  std::vector<double> mass_share; ///< of each node in its element's mass
+
+  /// Masses by the diagonal of the consistent matrix, scaled to the whole (Hinton, Rock, Zienkiewicz, Earthq. Eng.
+  /// Struct. Dyn. 4 (1976) 245-249): positive for any element, where the row sum is not; on bricks, Simpson's rule.
+  explicit Solids(const dealii::DoFHandler<3> &dof_handler)
+  {
+    for_each_cell(dof_handler, n_nodes == 8 ? 1 : 2, [&](const dealii::FEValues<3> &values) { add(values); });
+  }
+
+private:
+  void add(const dealii::FEValues<3> &values)
+  {
+    Geometry cell{};
+    std::array<double, n_nodes> diagonal{};
+    for (unsigned int point = 0; point < values.n_quadrature_points; ++point)
+    {
+      const unsigned int pack = point / points_per_pack, lane = point % points_per_pack;
+      cell.volume[pack][lane] = values.JxW(point);
+      for (int node = 0; node < n_nodes; ++node)
+      {
+        for (int i = 0; i < 3; ++i)
+          cell.gradient[pack][i][node][lane] = values.shape_grad(node, point)[i];
+        const double value = values.shape_value(node, point);
+        diagonal[node] += value * value * values.JxW(point);
+      }
+    }
+    const double whole = std::accumulate(diagonal.begin(), diagonal.end(), 0.);
+    for (const double d : diagonal)
+      mass_share.push_back(d / whole);
+    geometry.push_back(cell);
+  }
+};
+
+template <class Law>
+std::unique_ptr<ElementGroup> small_strain_quadratic(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+                                                     const double initial_pressure)
+{
+  Solids<27> solids(dof_handler);
+  return std::make_unique<SmallStrainQuadratic<Law>>(law, element_nodes(dof_handler), std::move(solids.geometry),
+                                                     std::move(solids.mass_share), initial_pressure);
+}
+
 template <class Law, int n_nodes>
 std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_handler, const Law &law)
 {
-  using Elements = FiniteStrainSolid<Law, n_nodes>;
-  std::vector<typename Elements::Geometry> geometries;
-  std::vector<double> mass_share;
-  for_each_cell(dof_handler, n_nodes == 8 ? 1 : 2,
-                [&](const dealii::FEValues<3> &values)
-                {
-                  typename Elements::Geometry geometry{};
-                  std::array<double, n_nodes> diagonal{};
-                  double whole = 0;
-                  for (unsigned int point = 0; point < values.n_quadrature_points; ++point)
-                  {
-                    const unsigned int pack = point / points_per_pack, lane = point % points_per_pack;
-                    geometry.volume[pack][lane] = values.JxW(point);
-                    for (int node = 0; node < n_nodes; ++node)
-                    {
-                      for (int i = 0; i < 3; ++i)
-                        geometry.gradient[pack][i][node][lane] = values.shape_grad(node, point)[i];
-                      const double value = values.shape_value(node, point);
-                      diagonal[node] += value * value * values.JxW(point);
-                    }
-                  }
-                  for (const double d : diagonal)
-                    whole += d;
-                  for (const double d : diagonal)
-                    mass_share.push_back(d / whole);
-                  geometries.push_back(geometry);
-                });
-  return std::make_unique<Elements>(law, element_nodes(dof_handler), std::move(geometries), std::move(mass_share));
+  Solids<n_nodes> solids(dof_handler);
+  return std::make_unique<FiniteStrainSolid<Law, n_nodes>>(law, element_nodes(dof_handler), std::move(solids.geometry),
+                                                           std::move(solids.mass_share));
 }
 
 struct Maker
@@ -135,10 +158,8 @@ struct Maker
   template <class Law>
   std::unique_ptr<ElementGroup> of_small_strain(const Law &law) const
   {
-    if (degree() != 1)
-      throw ParameterError("continuum: a law of small strain needs elements of 8 nodes; choose degree 1 instead of " +
-                           std::to_string(degree()));
-    return small_strain(dof_handler, law, initial_pressure);
+    return degree() == 1 ? small_strain_trilinear(dof_handler, law, initial_pressure)
+                         : small_strain_quadratic(dof_handler, law, initial_pressure);
   }
 
   template <class Law>

@@ -30,6 +30,10 @@ void MohrCoulombParameters::validate() const
   require(cohesion >= 0 && std::isfinite(cohesion), "cohesion [Pa]", cohesion, "give zero or a positive number");
   require(cohesion > 0 || friction_angle > 0, "cohesion [Pa]", cohesion,
           "with a friction angle of zero it must be positive, otherwise the material has no strength");
+  require(reference_pressure >= 0 && std::isfinite(reference_pressure), "reference_pressure [Pa]", reference_pressure,
+          "give a positive number, or zero for a stiffness that does not depend on the pressure");
+  require(stiffness_exponent >= 0 && stiffness_exponent <= 1, "stiffness_exponent", stiffness_exponent,
+          "choose it in [0, 1]; 1/3 for contacts after Hertz, about 0.5 for sands");
   require(density > 0 && std::isfinite(density), "density [kg/m^3]", density, "give a positive number");
 }
 
@@ -60,16 +64,17 @@ double MohrCoulomb::yield_function(const Stress &stress) const
 
 StressUpdate MohrCoulomb::update(const Stress &stress_old, const Strain &strain_increment) const
 {
+  const double stiffness = depends_on_pressure() ? stiffness_factor(mean_stress(stress_old)) : 1;
   Stress trial = elastic_stress(strain_increment);
   for (int i = 0; i < 6; ++i)
-    trial[i] += stress_old[i];
+    trial[i] = stress_old[i] + stiffness * trial[i];
   if (is_surely_elastic(mean_stress(trial), second_invariant(trial)))
     return {trial, {}, Sector::elastic, 0};
-  return return_to_surface(stress_old, trial, principal_frame(trial));
+  return return_to_surface(stress_old, trial, principal_frame(trial), stiffness);
 }
 
 StressUpdate MohrCoulomb::return_to_surface(const Stress &stress_old, const Stress &stress_trial,
-                                            const PrincipalFrame<double> &frame) const
+                                            const PrincipalFrame<double> &frame, const double stiffness) const
 {
   const double t1 = frame.value[0], t2 = frame.value[1], t3 = frame.value[2];
   const double phi = t1 - t3 + (t1 + t3) * sin_friction_ - 2 * cohesion_cos_;
@@ -130,7 +135,10 @@ StressUpdate MohrCoulomb::return_to_surface(const Stress &stress_old, const Stre
     relaxed[i] = stress_trial[i] - result.stress[i];
     middle_stress[i] = 0.5 * (stress_old[i] + result.stress[i]);
   }
+  // Multipliers and moduli scale inversely, so the stress above is the same for any stiffness.
   result.plastic_strain = elastic_strain(relaxed);
+  for (double &component : result.plastic_strain)
+    component /= stiffness;
   result.plastic_dissipation = energy_density(middle_stress, result.plastic_strain);
   return result;
 }

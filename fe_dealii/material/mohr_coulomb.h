@@ -13,12 +13,14 @@ namespace bergamo::fe
 /// sec. 5.4) fitted to his grains; the density has no meaningful default for another packing, so set it.
 struct MohrCoulombParameters
 {
-  double young_modulus = 60e6;   ///< [Pa], > 0
-  double poisson_ratio = 0.145;  ///< [-], in [0, 0.5)
-  double friction_angle = 23.15; ///< [degrees], in [dilation_angle, 90)
-  double dilation_angle = 5.17;  ///< [degrees], in [0, friction_angle]
-  double cohesion = 15;          ///< [Pa], >= 0; not zero together with the friction angle
-  double density = 1600;         ///< of the packing as a whole [kg/m³], > 0
+  double young_modulus = 60e6;     ///< [Pa], > 0
+  double poisson_ratio = 0.145;    ///< [-], in [0, 0.5)
+  double friction_angle = 23.15;   ///< [degrees], in [dilation_angle, 90)
+  double dilation_angle = 5.17;    ///< [degrees], in [0, friction_angle]
+  double cohesion = 15;            ///< [Pa], >= 0; not zero together with the friction angle
+  double density = 1600;           ///< of the packing as a whole [kg/m³], > 0
+  double reference_pressure = 0;   ///< p_r at which the Young's modulus holds [Pa]; 0: it holds at any pressure
+  double stiffness_exponent = 0.5; ///< m: the modulus grows as (p/p_r)^m [-], in [0, 1]
 
   /// Throws ParameterError that names the first value outside its range.
   void validate() const;
@@ -45,7 +47,12 @@ struct StressUpdate
 /// Small-strain, perfectly plastic, non-associative Mohr–Coulomb law: with σ1 >= σ2 >= σ3, tension positive,
 ///   Φ = σ1 − σ3 + (σ1 + σ3) sin φ − 2 c cos φ <= 0,   flow along ∂Ψ/∂σ, Ψ = Φ with ψ in place of φ.
 /// Implicit return in principal stresses, closed form: de Souza Neto, Perić, Owen, Computational Methods for
-/// Plasticity (2008), sec. 8.2. All members are pure, free of allocation, exceptions and virtual calls.
+/// Plasticity (2008), sec. 8.2.
+///
+/// With a reference pressure both moduli grow as (p/p_r)^m of the pressure p at the start of an increment, from a
+/// hundredth of p_r on (Janbu 1963; m = 1/3 for Hertz contacts, about 0.5 for sands). Poisson's ratio stays. Such a law
+/// has no energy that depends on the stress alone: a closed loop of stress may gain or lose elastic work.
+/// All members are pure, free of allocation, exceptions and virtual calls.
 class MohrCoulomb
 {
 public:
@@ -56,9 +63,20 @@ public:
   StressUpdate update(const Stress &stress_old, const Strain &strain_increment) const;
 
   /// The plastic half of update(): brings an elastic trial stress back to the yield surface (or leaves it inside).
-  /// `frame` is the principal frame of the trial stress.
+  /// `frame` is the principal frame of the trial stress, `stiffness` the factor of the moduli in this increment.
   StressUpdate return_to_surface(const Stress &stress_old, const Stress &stress_trial,
-                                 const PrincipalFrame<double> &frame) const;
+                                 const PrincipalFrame<double> &frame, double stiffness = 1) const;
+
+  bool depends_on_pressure() const { return parameters_.reference_pressure > 0; }
+
+  /// Factor of the moduli at a mean stress, tension positive. `mean` may be a SIMD pack.
+  template <class Real>
+  Real stiffness_factor(const Real &mean) const
+  {
+    const Real share = mean * (-1 / parameters_.reference_pressure);
+    return lanes::power(Real(share > least_pressure_share ? share : least_pressure_share + 0 * share),
+                        parameters_.stiffness_exponent);
+  }
 
   /// Elastic stress of a strain.
   Stress elastic_stress(const Strain &strain) const
@@ -115,6 +133,8 @@ public:
   const MohrCoulombParameters &parameters() const { return parameters_; }
 
 private:
+  static constexpr double least_pressure_share = 0.01; // of the reference pressure
+
   MohrCoulombParameters parameters_;
   double bulk_, shear_, lame_;
   double sin_friction_, sin_dilation_, cohesion_cos_; // cohesion_cos_ = c cos φ

@@ -20,9 +20,8 @@ namespace
 template <int degree>
 struct Hexahedron
 {
-  static constexpr int per_axis = degree + 1, n_nodes = per_axis * per_axis * per_axis,
-                       n_packs = (n_nodes + points_per_pack - 1) / points_per_pack;
-  using Geometry = finite_strain::Geometry<n_nodes, n_packs>;
+  static constexpr int per_axis = degree + 1, n_nodes = per_axis * per_axis * per_axis, n_packs = packs_of(n_nodes);
+  using Geometry = SolidGeometry<n_nodes, n_packs>;
   std::array<std::array<double, 3>, n_nodes> node;
 
   static double shape(const int k, const double x, const bool slope)
@@ -117,9 +116,7 @@ void check_element(const Law &law)
         for (int j = 0; j < 3; ++j)
           u[3 * node + i] += f[i][j] * element.node[node][j];
       }
-    double volume = 0;
-    for (const Points &v : geometry.volume)
-      volume += sum(v);
+    const double volume = geometry.whole_volume();
     finite_strain::Response response = internal_force(law, geometry, dilatation, u, force);
     CHECK(response.energy == Approx(volume * energy_density(law, f)).epsilon(1e-12));
     for (int node = 0; node < Cube::n_nodes; ++node)

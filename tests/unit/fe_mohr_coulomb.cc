@@ -492,3 +492,63 @@ TEST_CASE("Mohr-Coulomb: bad parameters are named", "[fe]")
   rejected([](auto &p) { p.cohesion = p.friction_angle = p.dilation_angle = 0; }, "cohesion");
   rejected([](auto &p) { p.density = 0; }, "density");
 }
+
+TEST_CASE("Mohr-Coulomb: a stiffness that grows with the pressure", "[fe]")
+{
+  MohrCoulombParameters p;
+  p.cohesion = 1e9; // elastic
+  p.reference_pressure = 1e5;
+  for (const double exponent : {0., 1. / 3, 0.5, 1.})
+  {
+    p.stiffness_exponent = exponent;
+    const MohrCoulomb sand(p);
+    CHECK(sand.stiffness_factor(-1e5) == Approx(1));
+    CHECK(sand.stiffness_factor(-4e5) == Approx(std::pow(4, exponent)));
+    CHECK(sand.stiffness_factor(50.) == Approx(std::pow(0.01, exponent))); // no softer than at a hundredth
+    // Isotropic compression from 50 to 200 kPa: dp = K (p/p_r)^m de, so e = p_r/K [x^(1-m)/(1-m)] over x = p/p_r. Steps
+    // with the stiffness of their start are of first order.
+    const double exact =
+        exponent == 1 ? std::log(4.) : (std::pow(2, 1 - exponent) - std::pow(0.5, 1 - exponent)) / (1 - exponent);
+    double error[2];
+    for (int k = 0; k < 2; ++k)
+    {
+      const int n = 1000 << k;
+      const double de = 1e5 / sand.bulk_modulus() * exact / n;
+      Stress stress{-5e4, -5e4, -5e4, 0, 0, 0};
+      for (int i = 0; i < n; ++i)
+        stress = sand.update(stress, {-de / 3, -de / 3, -de / 3, 0, 0, 0}).stress;
+      error[k] = std::abs(stress[0] / -2e5 - 1);
+    }
+    CHECK(error[1] < 1e-3);
+    if (exponent > 0)
+      CHECK(error[0] / error[1] == Approx(2).epsilon(0.02));
+  }
+
+  // On the yield surface the stress does not depend on the stiffness, the plastic strain inversely so.
+  p.cohesion = 15;
+  p.stiffness_exponent = 0.5;
+  const MohrCoulomb varies(p);
+  p.reference_pressure = 0;
+  const MohrCoulomb constant(p);
+  const Stress old{-2e5, -2e5, -2e5, 0, 0, 0};
+  const double factor = varies.stiffness_factor(-2e5);
+  const Strain strain{1e-3, 8e-4, -6e-3, 4e-4, 0, -3e-4};
+  Strain stronger;
+  for (int i = 0; i < 6; ++i)
+    stronger[i] = factor * strain[i];
+  const StressUpdate a = varies.update(old, strain), b = constant.update(old, stronger);
+  REQUIRE(a.sector != Sector::elastic);
+  for (int i = 0; i < 6; ++i)
+  {
+    CHECK(a.stress[i] == Approx(b.stress[i]));
+    CHECK(factor * a.plastic_strain[i] == Approx(b.plastic_strain[i]));
+  }
+  CHECK(factor * a.plastic_dissipation == Approx(b.plastic_dissipation));
+
+  using Catch::Matchers::Contains;
+  p.reference_pressure = -1;
+  CHECK_THROWS_WITH(MohrCoulomb(p), Contains("reference_pressure [Pa] = -1"));
+  p.reference_pressure = 1;
+  p.stiffness_exponent = 2;
+  CHECK_THROWS_WITH(MohrCoulomb(p), Contains("stiffness_exponent = 2"));
+}

@@ -249,7 +249,6 @@ TEST_CASE("large strain: an element that turns inside out ends the run with its 
 
 TEST_CASE("materials and elements that do not go together are refused", "[fe]")
 {
-  CHECK_THROWS_WITH(box(LinearElastic(rubber), 2, {1, 1, 1}, 0), Catch::Contains("8 nodes"));
   CHECK_THROWS_WITH(box(NeoHooke(rubber), 3, {1, 1, 1}, 0), Catch::Contains("degree = 3"));
   dealii::Triangulation<3> mesh;
   make_box({}, mesh);

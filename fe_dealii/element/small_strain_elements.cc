@@ -1,0 +1,111 @@
+#include "fe_dealii/element/small_strain_elements.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace bergamo::fe
+{
+
+template <class Law>
+SmallStrainElements<Law>::SmallStrainElements(const Law &law, const int nodes_per_element,
+                                              std::vector<unsigned int> nodes, const int n_packs,
+                                              const double initial_pressure)
+    : ElementGroup(nodes_per_element, std::move(nodes)), law_(law), n_packs_(n_packs)
+{
+  PointHistory initial{};
+  for (int i = 0; i < 3; ++i)
+    initial.stress[i] -= initial_pressure;
+  history_.assign(n_packs * size(), initial);
+  sector_.assign(points_per_pack * history_.size(), Sector::elastic);
+}
+
+template <class Law>
+double SmallStrainElements<Law>::volume(const std::size_t element) const
+{
+  double result = 0;
+  for (int pack = 0; pack < n_packs_; ++pack)
+    result += sum(pack_volume(element, pack));
+  return result;
+}
+
+template <class Law>
+Stress SmallStrainElements<Law>::stress(const std::size_t element, const int point) const
+{
+  const PointHistory &pack = history_[n_packs_ * element + point / points_per_pack];
+  Stress result;
+  for (int i = 0; i < 6; ++i)
+    result[i] = pack.stress[i][point % points_per_pack];
+  return result;
+}
+
+template <class Law>
+ElementState SmallStrainElements<Law>::state_of(const std::size_t element, const double *) const
+{
+  ElementState state;
+  const double whole = volume(element);
+  for (int pack = 0; pack < n_packs_; ++pack)
+  {
+    const PointHistory &history = history_[n_packs_ * element + pack];
+    const Points fraction = pack_volume(element, pack) / whole;
+    for (int i = 0; i < 6; ++i)
+      state.stress[i] += sum(fraction * history.stress[i]);
+    state.plastic_strain += sum(fraction * history.plastic_strain);
+  }
+  if constexpr (std::is_same_v<Law, MohrCoulomb>)
+    state.yield_function = law_.yield_function(state.stress);
+  return state;
+}
+
+template <class Law>
+double SmallStrainElements<Law>::elastic_energy() const
+{
+  double energy = 0;
+  if constexpr (std::is_same_v<Law, MohrCoulomb>)
+    if (law_.depends_on_pressure())
+    {
+      for (const PointHistory &history : history_)
+        energy += sum(history.elastic_work);
+      return energy;
+    }
+  for (std::size_t e = 0; e < size(); ++e)
+    for (int point = 0; point < points_per_pack * n_packs_; ++point)
+      energy += pack_share_volume(e, point / points_per_pack)[point % points_per_pack] *
+                elastic_energy_density(stress(e, point), law_.bulk_modulus(), law_.shear_modulus());
+  return energy;
+}
+
+template <class Law>
+double SmallStrainElements<Law>::dissipated_energy() const
+{
+  double energy = 0;
+  for (const PointHistory &history : history_)
+    energy += sum(history.dissipated_energy);
+  return energy;
+}
+
+template <class Law>
+double SmallStrainElements<Law>::greatest_stiffness_factor(const std::size_t element) const
+{
+  double greatest = 1;
+  if constexpr (std::is_same_v<Law, MohrCoulomb>)
+    if (law_.depends_on_pressure())
+    {
+      greatest = 0;
+      for (int point = 0; point < points_per_pack * n_packs_; ++point)
+        greatest = std::max(greatest, law_.stiffness_factor(mean_stress(stress(element, point))));
+    }
+  return greatest;
+}
+
+template <class Law>
+std::vector<std::pair<std::string, std::span<double>>> SmallStrainElements<Law>::state()
+{
+  static_assert(sizeof(PointHistory) % sizeof(double) == 0);
+  return {{"element_history",
+           {reinterpret_cast<double *>(history_.data()), history_.size() * sizeof(PointHistory) / sizeof(double)}}};
+}
+
+template class SmallStrainElements<LinearElastic>;
+template class SmallStrainElements<MohrCoulomb>;
+
+} // namespace bergamo::fe

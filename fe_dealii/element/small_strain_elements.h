@@ -1,0 +1,56 @@
+#pragma once
+
+#include "fe_dealii/element/element_group.h"
+#include "fe_dealii/element/stress_update.h"
+
+namespace bergamo::fe
+{
+
+/// What elements of small strain share, whatever their shape: the law, the points' histories and what follows from
+/// them.
+/// @tparam Law LinearElastic or MohrCoulomb
+template <class Law>
+class SmallStrainElements : public ElementGroup
+{
+public:
+  ElementState state_of(std::size_t element, const double *displacement) const final;
+  double elastic_energy() const final;
+  double dissipated_energy() const final;
+  std::vector<std::pair<std::string, std::span<double>>> state() final;
+  double volume(std::size_t element) const final;
+
+  const Law &law() const { return law_; }
+  Stress stress(std::size_t element, int point) const;
+  Sector sector(const std::size_t element, const int point) const
+  {
+    return sector_[points_per_pack * n_packs_ * element + point];
+  }
+
+protected:
+  /// @param initial_pressure of the uniform initial stress −p0 I [Pa]
+  SmallStrainElements(const Law &law, int nodes_per_element, std::vector<unsigned int> nodes, int n_packs,
+                      double initial_pressure);
+
+  virtual const Points &pack_volume(std::size_t element, int pack) const = 0;       ///< weight times Jacobian [m³]
+  virtual const Points &pack_share_volume(std::size_t element, int pack) const = 0; ///< times the continuum's share
+
+  PointHistory &history(const std::size_t element, const int pack) { return history_[n_packs_ * element + pack]; }
+  Sector *sectors(const std::size_t element, const int pack)
+  {
+    return &sector_[points_per_pack * (n_packs_ * element + pack)];
+  }
+
+  /// Largest factor of the moduli at any point.
+  double greatest_stiffness_factor(std::size_t element) const;
+
+private:
+  Law law_;
+  int n_packs_;
+  std::vector<PointHistory> history_;
+  std::vector<Sector> sector_;
+};
+
+extern template class SmallStrainElements<LinearElastic>;
+extern template class SmallStrainElements<MohrCoulomb>;
+
+} // namespace bergamo::fe
