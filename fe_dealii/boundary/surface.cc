@@ -1,0 +1,64 @@
+#include "fe_dealii/boundary/surface.h"
+
+#include "fe_dealii/error.h"
+#include "fe_dealii/explicit_body.h"
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/grid/tria.h>
+
+#include <sstream>
+
+namespace bergamo::fe
+{
+
+Surface boundary_surface(const ExplicitBody &body, const unsigned int boundary_id)
+{
+  const dealii::DoFHandler<3> &dof_handler = body.dof_handler();
+  Surface surface;
+  surface.degree = dof_handler.get_fe().degree;
+  const int n = surface.degree + 1;
+  const std::vector<unsigned int> place = dealii::FE_Q<2>(surface.degree).get_poly_space_numbering_inverse();
+  std::vector<dealii::types::global_dof_index> dofs(dof_handler.get_fe().n_dofs_per_face());
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &face : cell->face_iterators())
+    {
+      if (!face->at_boundary() || face->boundary_id() != boundary_id)
+        continue;
+      face->get_dof_indices(dofs, cell->active_fe_index());
+      const auto normal =
+          dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+      const bool outward = normal * (face->center() - cell->center()) > 0;
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          surface.nodes.push_back(dofs[3 * place[outward ? n * j + i : n * i + j]] / 3);
+    }
+  if (surface.nodes.empty())
+  {
+    std::ostringstream message;
+    message << "continuum: the mesh has no boundary " << boundary_id << "; it has";
+    for (const auto id : dof_handler.get_triangulation().get_boundary_ids())
+      message << ' ' << id;
+    throw ParameterError(message.str());
+  }
+  return surface;
+}
+
+std::vector<std::array<unsigned int, 3>> triangles(const Surface &surface)
+{
+  std::vector<std::array<unsigned int, 3>> result;
+  const int n = surface.degree + 1;
+  for (std::size_t k = 0; k < surface.size(); ++k)
+    for (int j = 0; j + 1 < n; ++j)
+      for (int i = 0; i + 1 < n; ++i)
+      {
+        const std::span<const unsigned int> face = surface.face(k);
+        const unsigned int a = face[n * j + i], b = face[n * j + i + 1], c = face[n * (j + 1) + i + 1],
+                           d = face[n * (j + 1) + i];
+        result.push_back({a, b, c});
+        result.push_back({a, c, d});
+      }
+  return result;
+}
+
+} // namespace bergamo::fe

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace bergamo::fe
+{
+
+class ExplicitBody;
+
+/// Faces of a boundary, by the nodes of the body: tensor products of (degree + 1)² nodes, x fastest, ordered so that
+/// the cross product of the first and the second direction points out of the body.
+struct Surface
+{
+  int degree = 1; ///< 1 or 2
+  std::vector<unsigned int> nodes;
+
+  int nodes_per_face() const { return (degree + 1) * (degree + 1); }
+  std::size_t size() const { return nodes.size() / nodes_per_face(); }
+  std::span<const unsigned int> face(const std::size_t k) const
+  {
+    return {&nodes[k * nodes_per_face()], std::size_t(nodes_per_face())};
+  }
+};
+
+/// All faces of a boundary. Throws ParameterError where the mesh has no such boundary.
+Surface boundary_surface(const ExplicitBody &body, unsigned int boundary_id);
+
+/// Linear triangles between the nodes of the surface, outward counterclockwise: two for each face of 4 nodes, eight for
+/// each of 9 (the analogue of Wellmann's fig. 4.1).
+std::vector<std::array<unsigned int, 3>> triangles(const Surface &surface);
+
+} // namespace bergamo::fe

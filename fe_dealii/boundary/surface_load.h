@@ -1,0 +1,43 @@
+#pragma once
+
+#include "fe_dealii/boundary/surface.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace bergamo::fe
+{
+
+/// Forces on the nodes of a surface from what acts on its area. Displacements and forces are arrays of the whole body,
+/// 3*node + component.
+class SurfaceLoad
+{
+public:
+  /// @param position of all nodes in the reference configuration [m]
+  SurfaceLoad(Surface surface, std::span<const std::array<double, 3>> position);
+
+  /// Adds a dead load: forces per reference area, in a fixed direction [Pa].
+  void add_traction(const std::array<double, 3> &traction, std::span<double> force) const;
+
+  /// Adds a pressure that follows the surface: force −p n per present area [Pa].
+  void add_pressure(double pressure, std::span<const double> displacement, std::span<double> force) const;
+
+  double reference_area() const; ///< [m²]
+  const Surface &surface() const { return surface_; }
+
+private:
+  struct Point // of quadrature
+  {
+    double weight;
+    std::array<double, 9> value, slope_1, slope_2; // of the shape functions
+  };
+  using Vector = std::array<double, 3>;
+  Vector area_vector(std::size_t face, const Point &point, const double *displacement) const;
+
+  Surface surface_;
+  std::vector<Vector> position_; // of the surface's nodes, in its order
+  std::vector<Point> points_;
+};
+
+} // namespace bergamo::fe

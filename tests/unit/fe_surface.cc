@@ -1,0 +1,141 @@
+#include "fe_dealii/boundary/surface_load.h"
+#include "fe_dealii/box_mesh.h"
+#include "fe_dealii/error.h"
+#include "fe_dealii/explicit_body.h"
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+using namespace bergamo::fe;
+
+namespace
+{
+
+using Vector = std::array<double, 3>;
+
+ExplicitBody box(const unsigned int degree, const double distortion)
+{
+  dealii::Triangulation<3> mesh;
+  make_box({{0, 0, 0}, {1, 2, 3}, {2, 3, 2}}, mesh);
+  if (distortion > 0)
+    dealii::GridTools::distort_random(distortion, mesh, /*keep_boundary=*/false, /*seed=*/5);
+  ExplicitBodyParameters parameters;
+  parameters.degree = degree;
+  return ExplicitBody(mesh, parameters);
+}
+
+Vector sum_of(const std::vector<double> &force)
+{
+  Vector sum{};
+  for (std::size_t dof = 0; dof < force.size(); ++dof)
+    sum[dof % 3] += force[dof];
+  return sum;
+}
+
+} // namespace
+
+TEST_CASE("a surface's triangles close, point outwards and have its area", "[fe]")
+{
+  for (const unsigned int degree : {1u, 2u})
+  {
+    const ExplicitBody body = box(degree, 0);
+    const auto &x = body.node_position();
+    std::map<std::pair<unsigned int, unsigned int>, int> edges;
+    double volume = 0;
+    for (unsigned int id = 0; id < 6; ++id)
+    {
+      const Surface surface = boundary_surface(body, id);
+      const auto pieces = triangles(surface);
+      CHECK(pieces.size() == surface.size() * (degree == 1 ? 2 : 8));
+      Vector area{};
+      for (const auto &t : pieces)
+      {
+        Vector a, b;
+        for (int i = 0; i < 3; ++i)
+        {
+          a[i] = x[t[1]][i] - x[t[0]][i];
+          b[i] = x[t[2]][i] - x[t[0]][i];
+        }
+        for (int i = 0; i < 3; ++i)
+        {
+          const double part = 0.5 * (a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3]);
+          area[i] += part;
+          volume += part * x[t[0]][i] / 3;
+        }
+        for (int k = 0; k < 3; ++k)
+          ++edges[{t[k], t[(k + 1) % 3]}];
+      }
+      const double side[3] = {6, 3, 2};
+      for (unsigned int i = 0; i < 3; ++i)
+        CHECK(area[i] == Approx(i == id / 2 ? (id % 2 ? 1 : -1) * side[i] : 0.).margin(1e-12));
+    }
+    CHECK(volume == Approx(6)); // by Gauss' theorem
+    for (const auto &[edge, count] : edges)
+    {
+      REQUIRE(count == 1);
+      REQUIRE(edges.count({edge.second, edge.first}) == 1);
+    }
+  }
+  CHECK_THROWS_WITH(boundary_surface(box(1, 0), 9), Catch::Contains("no boundary 9") && Catch::Contains("0 1 2 3 4 5"));
+}
+
+TEST_CASE("tractions and pressures on a surface have the resultants of their areas", "[fe]")
+{
+  for (const unsigned int degree : {1u, 2u})
+  {
+    const ExplicitBody body = box(degree, 0.2);
+    std::vector<double> closed(3 * body.n_nodes(), 0.), displacement(3 * body.n_nodes());
+    // A turn by 90 degrees about z and a stretch by 1.5 along what was x.
+    for (std::size_t node = 0; node < body.n_nodes(); ++node)
+    {
+      const Vector &x = body.node_position()[node];
+      displacement[3 * node] = -x[1] - x[0];
+      displacement[3 * node + 1] = 1.5 * x[0] - x[1];
+    }
+    double area = 0;
+    for (unsigned int id = 0; id < 6; ++id)
+    {
+      const SurfaceLoad load(boundary_surface(body, id), body.node_position());
+      area += load.reference_area();
+      std::vector<double> force(3 * body.n_nodes(), 0.);
+      load.add_traction({1, 2, 3}, force);
+      const Vector resultant = sum_of(force);
+      for (int i = 0; i < 3; ++i)
+        CHECK(resultant[i] == Approx((i + 1) * load.reference_area()));
+      load.add_pressure(7, displacement, closed);
+    }
+    CHECK(area > 22); // that of the box, more where it is distorted
+    // A pressure around a closed surface neither pushes nor turns, whatever its shape.
+    const Vector resultant = sum_of(closed);
+    Vector torque{};
+    for (std::size_t node = 0; node < body.n_nodes(); ++node)
+      for (int i = 0; i < 3; ++i)
+      {
+        const int a = (i + 1) % 3, b = (i + 2) % 3;
+        torque[i] += (body.node_position()[node][a] + displacement[3 * node + a]) * closed[3 * node + b] -
+                     (body.node_position()[node][b] + displacement[3 * node + b]) * closed[3 * node + a];
+      }
+    for (int i = 0; i < 3; ++i)
+    {
+      CHECK(std::abs(resultant[i]) < 1e-12 * 7 * 22);
+      CHECK(std::abs(torque[i]) < 1e-12 * 7 * 22);
+    }
+    // Its power on a displacement x is −3 p V.
+    double power = 0;
+    for (std::size_t node = 0; node < body.n_nodes(); ++node)
+      for (int i = 0; i < 3; ++i)
+        power += closed[3 * node + i] * (body.node_position()[node][i] + displacement[3 * node + i]);
+    double volume = 0;
+    for (std::size_t e = 0; e < body.n_elements(); ++e)
+      volume += body.elements().volume(e);
+    CHECK(power == Approx(-3 * 7 * 1.5 * volume).epsilon(1e-9));
+  }
+}
