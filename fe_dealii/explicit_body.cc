@@ -1,5 +1,6 @@
 #include "fe_dealii/explicit_body.h"
 
+#include "fe_dealii/boundary/surface.h"
 #include "fe_dealii/element/solid_elements.h"
 #include "fe_dealii/error.h"
 
@@ -326,40 +327,10 @@ double ExplicitBody::reaction(const Constraint constraint) const
 
 std::vector<unsigned int> ExplicitBody::boundary_nodes(const unsigned int boundary_id) const
 {
-  std::vector<unsigned int> nodes;
-  for (const auto &face : boundary_faces(boundary_id))
-    nodes.insert(nodes.end(), face.begin(), face.end());
+  std::vector<unsigned int> nodes = boundary_surface(*this, boundary_id).nodes;
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
-}
-
-std::vector<std::array<unsigned int, 4>> ExplicitBody::boundary_faces(const unsigned int boundary_id) const
-{
-  std::vector<std::array<unsigned int, 4>> faces;
-  for (const auto &cell : mesh_->dof_handler.active_cell_iterators())
-    for (const auto &face : cell->face_iterators())
-    {
-      if (!face->at_boundary() || face->boundary_id() != boundary_id)
-        continue;
-      std::array<unsigned int, 4> nodes;
-      constexpr unsigned int around[4] = {0, 1, 3, 2}; // deal.II counts line by line
-      for (int k = 0; k < 4; ++k)
-        nodes[k] = face->vertex_dof_index(around[k], 0, cell->active_fe_index()) / 3;
-      const auto normal =
-          dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
-      if (normal * (face->center() - cell->center()) < 0)
-        std::swap(nodes[1], nodes[3]);
-      faces.push_back(nodes);
-    }
-  if (faces.empty())
-  {
-    std::ostringstream known;
-    for (const auto id : mesh_->triangulation.get_boundary_ids())
-      known << ' ' << id;
-    reject("continuum: the mesh has no boundary ", boundary_id, "; it has", known.str());
-  }
-  return faces;
 }
 
 Stress ExplicitBody::average_stress() const

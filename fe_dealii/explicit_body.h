@@ -116,8 +116,6 @@ public:
   std::span<const unsigned int> element_nodes(const std::size_t element) const { return elements_->nodes(element); }
   /// Nodes of a boundary, ascending; ParameterError where the mesh has no such boundary.
   std::vector<unsigned int> boundary_nodes(unsigned int boundary_id) const;
-  /// Faces of a boundary by their corners, counterclockwise seen from outside.
-  std::vector<std::array<unsigned int, 4>> boundary_faces(unsigned int boundary_id) const;
   /// Numbers the vectors above: FESystem(FE_Q(degree), 3) on the body's own copy of the mesh.
   const dealii::DoFHandler<3, 3> &dof_handler() const;
   /// @}

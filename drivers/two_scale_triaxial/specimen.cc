@@ -1,6 +1,6 @@
 #include "drivers/two_scale_triaxial/specimen.h"
 
-#include "fe_dealii/box_mesh.h"
+#include "fe_dealii/mesh/box_mesh.h"
 
 #include <deal.II/grid/tria.h>
 

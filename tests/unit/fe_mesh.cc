@@ -1,12 +1,14 @@
-#include "fe_dealii/box_mesh.h"
+#include "fe_dealii/boundary/surface.h"
 #include "fe_dealii/error.h"
 #include "fe_dealii/explicit_body.h"
+#include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/output.h"
 
 #include <deal.II/grid/tria.h>
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -39,7 +41,8 @@ TEST_CASE("Box mesh: size, boundaries and outward faces", "[fe]")
     const double plane = id % 2 ? mesh.maximum[axis] : mesh.minimum[axis];
     for (const unsigned int node : body.boundary_nodes(id))
       CHECK(body.node_position()[node][axis] == Approx(plane));
-    for (const auto &face : body.boundary_faces(id))
+    const Surface surface = boundary_surface(body, id);
+    for (const auto &face : triangles(surface))
     {
       const auto &a = body.node_position()[face[0]], &b = body.node_position()[face[1]],
                  &c = body.node_position()[face[2]];
@@ -49,7 +52,7 @@ TEST_CASE("Box mesh: size, boundaries and outward faces", "[fe]")
     }
   }
   CHECK(body.boundary_nodes(4).size() == 12);
-  CHECK(body.boundary_faces(1).size() == 12);
+  CHECK(boundary_surface(body, 1).size() == 12);
 
   double mass = 0;
   for (std::size_t node = 0; node < body.n_nodes(); ++node)
@@ -57,8 +60,33 @@ TEST_CASE("Box mesh: size, boundaries and outward faces", "[fe]")
   CHECK(mass == Approx(24 * density(body.material())));
 }
 
+TEST_CASE("Box mesh: bricks that grow along an axis", "[fe]")
+{
+  const ExplicitBody body = box({{0, 0, 0}, {1, 1, 15}, {1, 2, 4}, {1, 1, 8}});
+  std::vector<double> height;
+  for (const auto &x : body.node_position())
+    if (x[0] == 0 && x[1] == 0)
+      height.push_back(x[2]);
+  std::sort(height.begin(), height.end());
+  const std::vector<double> expected{0, 1, 3, 7, 15};
+  REQUIRE(height.size() == expected.size());
+  for (std::size_t k = 0; k < height.size(); ++k)
+    CHECK(height[k] == Approx(expected[k]).margin(1e-12));
+}
+
+TEST_CASE("boundary nodes of quadratic elements include those on edges and faces", "[fe]")
+{
+  ExplicitBodyParameters parameters;
+  parameters.degree = 2;
+  const ExplicitBody body = box({{0, 0, 0}, {1, 1, 1}, {2, 3, 1}}, parameters);
+  CHECK(body.boundary_nodes(5).size() == 5 * 7);
+  for (const unsigned int node : body.boundary_nodes(5))
+    CHECK(body.node_position()[node][2] == 1);
+}
+
 TEST_CASE("Mesh and body: user's mistakes are named", "[fe]")
 {
+  CHECK_THROWS_WITH(box({{0, 0, 0}, {1, 1, 1}, {1, 1, 1}, {1, -2, 1}}), Contains("grading along y = -2"));
   CHECK_THROWS_WITH(box({{0, 0, 0}, {1, 0, 1}, {1, 1, 1}}), Contains("along y"));
   CHECK_THROWS_WITH(box({{0, 0, 0}, {1, 1, NAN}, {1, 1, 1}}), Contains("along z"));
   CHECK_THROWS_WITH(box({{0, 0, 0}, {1, 1, 1}, {0, 1, 1}}), Contains("subdivisions along x"));

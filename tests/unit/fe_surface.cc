@@ -1,7 +1,7 @@
 #include "fe_dealii/boundary/surface_load.h"
-#include "fe_dealii/box_mesh.h"
 #include "fe_dealii/error.h"
 #include "fe_dealii/explicit_body.h"
+#include "fe_dealii/mesh/box_mesh.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>

@@ -8,7 +8,7 @@
 #include "dem/packing/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
-#include "fe_dealii/box_mesh.h"
+#include "fe_dealii/mesh/box_mesh.h"
 
 #include <deal.II/grid/tria.h>
 #include <omp.h>

@@ -1,6 +1,6 @@
-#include "fe_dealii/box_mesh.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/explicit_body.h"
+#include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
 
 #include <deal.II/grid/grid_tools.h>

@@ -1,8 +1,9 @@
 // Bending of a nearly incompressible plate strip against the exact plane-strain solution, mean dilatation against full
 // integration. Timoshenko & Goodier, Theory of Elasticity, sec. 2.21 (pure bending), plane-strain moduli.
-#include "fe_dealii/box_mesh.h"
+#include "fe_dealii/boundary/surface.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/explicit_body.h"
+#include "fe_dealii/mesh/box_mesh.h"
 
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/full_matrix.h>
@@ -81,12 +82,13 @@ double bending_ratio(const double poisson_ratio, const unsigned int n_depth, con
   }
   // σ_xx = −κ E/(1 − ν²) y on the end face, consistent nodal forces: ∫ N σ over the depth, h/6 (2 σ_a + σ_b).
   const double modulus = plate.young_modulus / (1 - poisson_ratio * poisson_ratio);
-  for (const auto &face : body.boundary_faces(1))
-    for (const unsigned int node : face)
+  const Surface end = boundary_surface(body, 1);
+  for (std::size_t k = 0; k < end.size(); ++k)
+    for (const unsigned int node : end.face(k))
     {
       const double y = body.node_position()[node][1];
       double other = y;
-      for (const unsigned int neighbour : face)
+      for (const unsigned int neighbour : end.face(k))
         if (std::abs(body.node_position()[neighbour][1] - y) > 1e-9)
           other = body.node_position()[neighbour][1];
       force(number[3 * node]) -= curvature * modulus * (depth / n_depth) / 6 * (2 * y + other) * 0.25 / 2;

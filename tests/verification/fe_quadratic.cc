@@ -1,7 +1,7 @@
 // Triquadratic hexahedra at small strain, and a stiffness that grows with the pressure, as bodies.
 
-#include "fe_dealii/box_mesh.h"
 #include "fe_dealii/explicit_body.h"
+#include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
 
 #include <deal.II/grid/grid_tools.h>

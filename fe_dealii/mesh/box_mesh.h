@@ -11,12 +11,13 @@ class Triangulation;
 namespace bergamo::fe
 {
 
-/// A box of equal bricks, edges along the global axes.
+/// A box of bricks, edges along the global axes.
 struct BoxMeshParameters
 {
   std::array<double, 3> minimum{0, 0, 0};            ///< corner [m]
   std::array<double, 3> maximum{1, 1, 1};            ///< opposite corner [m], greater in every component
   std::array<unsigned int, 3> subdivisions{1, 1, 1}; ///< bricks along x, y, z, at least 1
+  std::array<double, 3> grading{1, 1, 1}; ///< edge of the last brick over that of the first, growing evenly; > 0
 
   /// Throws ParameterError.
   void validate() const;
