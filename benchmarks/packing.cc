@@ -72,16 +72,17 @@ void write_curves(std::ostream &file, const std::vector<dem::AdditionRound> &rou
 {
   file << "stage,iteration,remaining_share,trials_per_placed_grain,solid_fraction,mean_size,smallest_size\n";
   double remaining = n_grains;
-  constexpr std::size_t most_rows = 500; // of the addition, whose last rounds try few grains each
-  const std::size_t stride = std::max<std::size_t>(1, rounds.size() / most_rows);
+  constexpr double row_growth = 1.02; // the last rounds try few grains each
+  std::size_t next_row = 1;
   double n_tried = 0., n_placed = 0.;
   for (std::size_t k = 0; k < rounds.size(); ++k)
   {
     n_tried += rounds[k].n_tried;
     n_placed += rounds[k].n_placed;
     remaining -= rounds[k].n_placed;
-    if ((k + 1) % stride != 0 && k + 1 != rounds.size())
+    if (k + 1 < next_row && k + 1 != rounds.size())
       continue;
+    next_row = std::max(k + 2, static_cast<std::size_t>(row_growth * (k + 1)));
     file << "addition," << k + 1 << ',' << remaining / n_grains << ',';
     if (n_placed > 0.)
       file << n_tried / n_placed;

@@ -36,10 +36,10 @@ def main():
     number = [int(row["iteration"]) for row in rounds]
     tried = [(n, float(row["trials_per_placed_grain"])) for n, row in zip(number, rounds)
              if row["trials_per_placed_grain"]]
-    addition.semilogy(*zip(*tried), ".", color=COLOURS[0], markersize=3, label="trials for each placed grain")
+    addition.loglog(*zip(*tried), ".", color=COLOURS[0], markersize=3, label="trials for each placed grain")
     remaining = [(n, 100 * float(row["remaining_share"])) for n, row in zip(number, rounds)
                  if float(row["remaining_share"]) > 0]
-    addition.semilogy(*zip(*remaining), color=COLOURS[1], label="grains still to be placed, %")
+    addition.loglog(*zip(*remaining), color=COLOURS[1], label="grains still to be placed, %")
     addition.set_xlabel("round of the random addition")
     addition.legend()
 
