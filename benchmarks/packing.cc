@@ -2,7 +2,7 @@
 // tightened to 0.55, beside the figures of the dissertation (3.4.4). `packing --help`.
 
 #include "benchmarks/program.h"
-#include "dem/core/error.h"
+#include "dem/io/whole_file.h"
 #include "dem/measure/histogram.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/tightening.h"
@@ -13,10 +13,11 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -39,20 +40,10 @@ double seconds_since(const std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::ofstream open_file(const std::filesystem::path &path, const char *option)
-{
-  std::ofstream file;
-  if (path.empty())
-    return file;
-  file.open(path);
-  if (!file)
-    throw dem::ConfigError("cannot write " + path.string() + ": choose another path for " + option);
-  return file;
-}
-
 /// Share of the grains in each class of the radius of the sphere of equal volume, as drawn and as packed.
-void write_sizes(std::ostream &file, const std::vector<dem::Superquadric> &grains, const std::vector<double> &size)
+std::string size_table(const std::vector<dem::Superquadric> &grains, const std::vector<double> &size)
 {
+  std::ostringstream file;
   std::vector<double> drawn, packed;
   for (std::size_t i = 0; i < grains.size(); ++i)
   {
@@ -64,12 +55,14 @@ void write_sizes(std::ostream &file, const std::vector<dem::Superquadric> &grain
   file << "radius_m,density_drawn_per_m,density_packed_per_m\n";
   for (int k = 0; k < bins.n; ++k)
     file << (k + 0.5) * before.width << ',' << before.density[k] << ',' << after.density[k] << '\n';
+  return file.str();
 }
 
 /// One row a round of the addition and an iteration of the tightening.
-void write_curves(std::ostream &file, const std::vector<dem::AdditionRound> &rounds,
-                  const std::vector<dem::TighteningStep> &steps, const int n_grains)
+std::string curve_table(const std::vector<dem::AdditionRound> &rounds, const std::vector<dem::TighteningStep> &steps,
+                        const int n_grains)
 {
+  std::ostringstream file;
   file << "stage,iteration,remaining_share,trials_per_placed_grain,solid_fraction,mean_size,smallest_size\n";
   double remaining = n_grains;
   constexpr double row_growth = 1.02; // the last rounds try few grains each
@@ -92,11 +85,22 @@ void write_curves(std::ostream &file, const std::vector<dem::AdditionRound> &rou
   for (std::size_t k = 0; k < steps.size(); ++k)
     file << "tightening," << k + 1 << ",,," << steps[k].solid_fraction << ',' << steps[k].mean_size << ','
          << steps[k].smallest_size << '\n';
+  return file.str();
+}
+
+void commit(dem::WholeFile &file, const std::string &text)
+{
+  file.write(text);
+  file.commit();
 }
 
 nlohmann::json measure(const Options &options)
 {
-  std::ofstream curves = open_file(options.curves, "--curves"), sizes = open_file(options.sizes, "--sizes");
+  std::optional<dem::WholeFile> curves, sizes; // opened now, so that a wrong path is known before any work
+  if (!options.curves.empty())
+    curves.emplace(options.curves);
+  if (!options.sizes.empty())
+    sizes.emplace(options.sizes);
   std::mt19937_64 generator(options.seed);
   std::vector<dem::Superquadric> grains;
   double solid_volume = 0.;
@@ -137,10 +141,10 @@ nlohmann::json measure(const Options &options)
             << tight.steps.size() << " iterations (250), smallest size " << smallest << " of the one drawn\n"
             << "core seconds a grain: " << (addition_time + tightening_time) * omp_get_max_threads() / options.n_grains
             << " (" << (943. + 3. * 3600.) * 6. / 278056. << ")\n";
-  if (curves.is_open())
-    write_curves(curves, addition.rounds, tight.steps, options.n_grains);
-  if (sizes.is_open())
-    write_sizes(sizes, grains, tight.size);
+  if (curves)
+    commit(*curves, curve_table(addition.rounds, tight.steps, options.n_grains));
+  if (sizes)
+    commit(*sizes, size_table(grains, tight.size));
   return {{"grains", options.n_grains},
           {"threads", omp_get_max_threads()},
           {"edge_m", edge},

@@ -9,18 +9,27 @@ import os
 import re
 import sys
 
-# Floors of dem/, from the ground up. A room may include itself and rooms on lower floors.
-DEM_FLOORS = {
-    "core": 1,
-    "shape": 2,
-    "state": 3, "contact": 3,
-    "law": 4, "neighbour": 4,
-    "force": 5, "periodic": 5,
-    "motion": 6, "measure": 6,
-    "simulation": 7,
-    "packing": 8,
-    "loading": 9,
-    "io": 10,
+# Floors of a house, from the ground up. A room may include itself and rooms on lower floors.
+FLOORS = {
+    "dem": {
+        "core": 1,
+        "shape": 2,
+        "state": 3, "contact": 3,
+        "law": 4, "neighbour": 4,
+        "force": 5, "periodic": 5,
+        "motion": 6, "measure": 6,
+        "simulation": 7,
+        "packing": 8,
+        "loading": 9,
+        "io": 10,
+    },
+    "fe_dealii": {
+        "error": 1, "body_energy": 1,
+        "material": 2, "mesh": 2,
+        "element": 3, "boundary": 3,
+        "explicit_body": 4,
+        "stable_step": 5, "output": 5,
+    },
 }
 
 # Which houses a house may include.
@@ -36,7 +45,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def room_of(path):
-    """The room of a file of dem/: its folder, or its own name for a file that lies in dem/ itself."""
+    """The room of a file: its folder in the house, or its own name for a file that lies in the house itself."""
     parts = path.split("/")
     return parts[1] if len(parts) > 2 else os.path.splitext(parts[1])[0]
 
@@ -49,14 +58,14 @@ def included_path(root, path, quote, name):
     return beside if quote == '"' and os.path.exists(os.path.join(root, beside)) else None
 
 
-def dem_violation(path, target):
-    room, target_room = room_of(path), room_of(target)
+def floor_violation(house, path, target):
+    floors, room, target_room = FLOORS[house], room_of(path), room_of(target)
     for name in (room, target_room):
-        if name not in DEM_FLOORS:
-            return f"dem/{name} has no floor in cmake/check_layers.py"
-    if room != target_room and DEM_FLOORS[target_room] >= DEM_FLOORS[room]:
-        return (f"dem/{room} (floor {DEM_FLOORS[room]}) must not include dem/{target_room} "
-                f"(floor {DEM_FLOORS[target_room]}): {target}")
+        if name not in floors:
+            return f"{house}/{name} has no floor in cmake/check_layers.py"
+    if room != target_room and floors[target_room] >= floors[room]:
+        return (f"{house}/{room} (floor {floors[room]}) must not include {house}/{target_room} "
+                f"(floor {floors[target_room]}): {target}")
     return None
 
 
@@ -71,7 +80,7 @@ def house_violation(path, target):
         return f"only drivers may include coupling/adapter/: {target}"
     if path.startswith("drivers/common/") and target_house == "drivers" and not target.startswith("drivers/common/"):
         return f"drivers/common/ must not include a driver: {target}"
-    return dem_violation(path, target) if house == target_house == "dem" else None
+    return floor_violation(house, path, target) if house == target_house and house in FLOORS else None
 
 
 def library_violation(path, name):

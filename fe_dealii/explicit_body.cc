@@ -327,7 +327,7 @@ double ExplicitBody::reaction(const Constraint constraint) const
 
 std::vector<unsigned int> ExplicitBody::boundary_nodes(const unsigned int boundary_id) const
 {
-  std::vector<unsigned int> nodes = boundary_surface(*this, boundary_id).nodes;
+  std::vector<unsigned int> nodes = boundary_surface(dof_handler(), boundary_id).nodes;
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

@@ -1,7 +1,6 @@
 #include "fe_dealii/boundary/surface.h"
 
 #include "fe_dealii/error.h"
-#include "fe_dealii/explicit_body.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
@@ -12,9 +11,8 @@
 namespace bergamo::fe
 {
 
-Surface boundary_surface(const ExplicitBody &body, const unsigned int boundary_id)
+Surface boundary_surface(const dealii::DoFHandler<3, 3> &dof_handler, const unsigned int boundary_id)
 {
-  const dealii::DoFHandler<3> &dof_handler = body.dof_handler();
   Surface surface;
   surface.degree = dof_handler.get_fe().degree;
   const int n = surface.degree + 1;

@@ -5,10 +5,14 @@
 #include <span>
 #include <vector>
 
+namespace dealii
+{
+template <int dim, int spacedim>
+class DoFHandler;
+}
+
 namespace bergamo::fe
 {
-
-class ExplicitBody;
 
 /// Faces of a boundary, by the nodes of the body: tensor products of (degree + 1)² nodes, x fastest, ordered so that
 /// the cross product of the first and the second direction points out of the body.
@@ -26,7 +30,8 @@ struct Surface
 };
 
 /// All faces of a boundary. Throws ParameterError where the mesh has no such boundary.
-Surface boundary_surface(const ExplicitBody &body, unsigned int boundary_id);
+/// @param dof_handler of a body: FESystem(FE_Q(degree), 3), dofs 3*node + component
+Surface boundary_surface(const dealii::DoFHandler<3, 3> &dof_handler, unsigned int boundary_id);
 
 /// Linear triangles between the nodes of the surface, outward counterclockwise: two for each face of 4 nodes, eight for
 /// each of 9 (the analogue of Wellmann's fig. 4.1).

@@ -43,6 +43,7 @@ inline void update_stress(const LinearElastic &material, const Points &, const P
 inline void update_stress(const MohrCoulomb &material, const Points &weighted_volume,
                           const Points (&strain_increment)[6], PointHistory &history, Sector *sector)
 {
+  const Points dissipated_before = history.dissipated_energy;
   Points trial[6], stiffness = Points{} + 1.;
   if (material.depends_on_pressure())
     stiffness = material.stiffness_factor(Points((history.stress[0] + history.stress[1] + history.stress[2]) / 3.));
@@ -82,14 +83,16 @@ inline void update_stress(const MohrCoulomb &material, const Points &weighted_vo
       for (int i = 0; i < 6; ++i)
         trial[i][point] = update.stress[i];
       history.plastic_strain[point] += equivalent_strain(update.plastic_strain);
-      const double dissipation = weighted_volume[point] * update.plastic_dissipation;
-      history.dissipated_energy[point] += dissipation;
-      history.elastic_work[point] -= dissipation;
+      history.dissipated_energy[point] += weighted_volume[point] * update.plastic_dissipation;
     }
   }
   if (material.depends_on_pressure())
+  {
+    Points work = dissipated_before - history.dissipated_energy;
     for (int i = 0; i < 6; ++i)
-      history.elastic_work += weighted_volume * 0.5 * (history.stress[i] + trial[i]) * strain_increment[i];
+      work += weighted_volume * 0.5 * (history.stress[i] + trial[i]) * strain_increment[i];
+    history.elastic_work += work;
+  }
   for (int i = 0; i < 6; ++i)
     history.stress[i] = trial[i];
 }

@@ -104,12 +104,6 @@ public:
             stress[5] / shear_};
   }
 
-  /// ½ σ : C⁻¹ : σ [J/m³].
-  double elastic_energy_density(const Stress &stress) const
-  {
-    return fe::elastic_energy_density(stress, bulk_, shear_);
-  }
-
   /// Sufficient for Φ <= 0, without eigenvalues. In invariants Φ/2 = sqrt(J2)(cos θ − sin θ sin φ/√3) + p̂ sin φ −
   /// c cos φ (ibid. 6.121); the bracket is at most sqrt(1 + sin²φ/3) over all Lode angles θ. `J2` may be a SIMD pack.
   template <class Real>
@@ -122,14 +116,12 @@ public:
   /// Φ [Pa].
   double yield_function(const Stress &stress) const;
 
+  /// Largest mean stress, c cot φ; infinite without friction [Pa].
+  double apex() const { return parameters_.friction_angle > 0 ? apex_ : HUGE_VAL; }
   double bulk_modulus() const { return bulk_; }          ///< K [Pa]
   double shear_modulus() const { return shear_; }        ///< G [Pa]
   double lame_modulus() const { return lame_; }          ///< λ = K − 2G/3 [Pa]
   double density() const { return parameters_.density; } ///< [kg/m³]
-  double apex() const
-  {
-    return parameters_.friction_angle > 0 ? apex_ : HUGE_VAL;
-  } ///< largest mean stress, c cot φ [Pa]
   const MohrCoulombParameters &parameters() const { return parameters_; }
 
 private:

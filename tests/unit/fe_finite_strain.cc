@@ -1,7 +1,5 @@
 #include "fe_dealii/element/finite_strain.h"
-#include "fe_dealii/material/mooney_rivlin.h"
-#include "fe_dealii/material/neo_hooke.h"
-#include "fe_dealii/material/ogden.h"
+#include "tests/unit/fe_rubber.h"
 
 #include <catch2/catch.hpp>
 
@@ -177,32 +175,16 @@ void check_element(const Law &law)
   }
 }
 
-const ElasticParameters rubber{.young_modulus = 1.5e6, .poisson_ratio = 0.45, .density = 1100};
-
 } // namespace
 
 TEST_CASE("elements at large strain: uniform deformation, forces from the energy, balance, tangent", "[fe]")
 {
-  SECTION("8 nodes, Neo-Hooke")
-  {
-    check_element<NeoHooke, 1>(NeoHooke(rubber));
-  }
-  SECTION("8 nodes, Mooney-Rivlin")
-  {
-    check_element<MooneyRivlin, 1>(MooneyRivlin({.elastic = rubber}));
-  }
-  SECTION("8 nodes, Ogden")
-  {
-    check_element<Ogden, 1>(Ogden(OgdenParameters()));
-  }
-  SECTION("27 nodes, Neo-Hooke")
-  {
-    check_element<NeoHooke, 2>(NeoHooke(rubber));
-  }
-  SECTION("27 nodes, Ogden")
-  {
-    check_element<Ogden, 2>(Ogden(OgdenParameters()));
-  }
+  for_each_law(
+      []<class Law>(const Law &law)
+      {
+        check_element<Law, 1>(law);
+        check_element<Law, 2>(law);
+      });
 }
 
 TEST_CASE("an element that is turned inside out says so", "[fe]")
@@ -214,5 +196,5 @@ TEST_CASE("an element that is turned inside out says so", "[fe]")
   u[0] = 1.6; // the corner at the origin is pushed through the element
   u[1] = 1.6;
   u[2] = 1.6;
-  CHECK(internal_force(NeoHooke(rubber), geometry, Dilatation::point, u, force).smallest_ratio < 0);
+  CHECK(internal_force(neo_hooke(), geometry, Dilatation::point, u, force).smallest_ratio < 0);
 }

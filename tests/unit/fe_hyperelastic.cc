@@ -1,7 +1,5 @@
 #include "fe_dealii/error.h"
-#include "fe_dealii/material/mooney_rivlin.h"
-#include "fe_dealii/material/neo_hooke.h"
-#include "fe_dealii/material/ogden.h"
+#include "tests/unit/fe_rubber.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,23 +12,6 @@ namespace
 {
 
 using Matrix = Tensor3<double>;
-
-constexpr ElasticParameters rubber{.young_modulus = 1.5e6, .poisson_ratio = 0.45, .density = 1100};
-
-NeoHooke neo_hooke()
-{
-  return NeoHooke(rubber);
-}
-
-MooneyRivlin mooney_rivlin()
-{
-  return MooneyRivlin({.elastic = rubber, .second_share = 0.2});
-}
-
-Ogden ogden()
-{
-  return Ogden(OgdenParameters());
-}
 
 Matrix product(const Matrix &a, const Matrix &b)
 {
@@ -95,24 +76,6 @@ std::array<double, 3> cauchy(const Law &law, const double x, const double y, con
 {
   const Matrix stress = first_piola(law, diagonal(x, y, z));
   return {stress[0][0] / (y * z), stress[1][1] / (z * x), stress[2][2] / (x * y)};
-}
-
-/// Runs a check for each law.
-template <class Check>
-void for_each_law(const Check &check)
-{
-  SECTION("Neo-Hooke")
-  {
-    check(neo_hooke());
-  }
-  SECTION("Mooney-Rivlin")
-  {
-    check(mooney_rivlin());
-  }
-  SECTION("Ogden")
-  {
-    check(ogden());
-  }
 }
 
 } // namespace

@@ -1,8 +1,5 @@
 #include "fe_dealii/element/membrane.h"
-#include "fe_dealii/material/elastic_parameters.h"
-#include "fe_dealii/material/mooney_rivlin.h"
-#include "fe_dealii/material/neo_hooke.h"
-#include "fe_dealii/material/ogden.h"
+#include "tests/unit/fe_rubber.h"
 
 #include <catch2/catch.hpp>
 
@@ -19,22 +16,6 @@ using Vector = std::array<double, 3>;
 using Nodes = std::array<Vector, 4>;
 
 constexpr double thickness = 0.3e-3;
-constexpr ElasticParameters rubber{.young_modulus = 1.5e6, .poisson_ratio = 0.45, .density = 1100};
-
-NeoHooke neo_hooke()
-{
-  return NeoHooke(rubber);
-}
-
-MooneyRivlin mooney_rivlin()
-{
-  return MooneyRivlin({.elastic = rubber, .second_share = 0.2});
-}
-
-Ogden ogden()
-{
-  return Ogden(OgdenParameters());
-}
 
 Nodes warped_square(std::mt19937_64 &random, const double distortion)
 {

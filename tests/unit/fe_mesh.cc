@@ -41,7 +41,7 @@ TEST_CASE("Box mesh: size, boundaries and outward faces", "[fe]")
     const double plane = id % 2 ? mesh.maximum[axis] : mesh.minimum[axis];
     for (const unsigned int node : body.boundary_nodes(id))
       CHECK(body.node_position()[node][axis] == Approx(plane));
-    const Surface surface = boundary_surface(body, id);
+    const Surface surface = boundary_surface(body.dof_handler(), id);
     for (const auto &face : triangles(surface))
     {
       const auto &a = body.node_position()[face[0]], &b = body.node_position()[face[1]],
@@ -52,7 +52,7 @@ TEST_CASE("Box mesh: size, boundaries and outward faces", "[fe]")
     }
   }
   CHECK(body.boundary_nodes(4).size() == 12);
-  CHECK(boundary_surface(body, 1).size() == 12);
+  CHECK(boundary_surface(body.dof_handler(), 1).size() == 12);
 
   double mass = 0;
   for (std::size_t node = 0; node < body.n_nodes(); ++node)

@@ -65,15 +65,9 @@ void step(ExplicitBody &body, const double dt)
 std::vector<bool> on_surface(const ExplicitBody &body)
 {
   std::vector<bool> result(body.n_nodes(), false);
-  for (const auto &cell : body.dof_handler().active_cell_iterators())
-    for (const auto &face : cell->face_iterators())
-      if (face->at_boundary())
-      {
-        std::vector<dealii::types::global_dof_index> dofs(body.dof_handler().get_fe().n_dofs_per_face());
-        face->get_dof_indices(dofs, 0);
-        for (const auto dof : dofs)
-          result[dof / 3] = true;
-      }
+  for (unsigned int id = 0; id < 6; ++id)
+    for (const unsigned int node : body.boundary_nodes(id))
+      result[node] = true;
   return result;
 }
 

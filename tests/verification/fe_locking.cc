@@ -82,7 +82,7 @@ double bending_ratio(const double poisson_ratio, const unsigned int n_depth, con
   }
   // σ_xx = −κ E/(1 − ν²) y on the end face, consistent nodal forces: ∫ N σ over the depth, h/6 (2 σ_a + σ_b).
   const double modulus = plate.young_modulus / (1 - poisson_ratio * poisson_ratio);
-  const Surface end = boundary_surface(body, 1);
+  const Surface end = boundary_surface(body.dof_handler(), 1);
   for (std::size_t k = 0; k < end.size(); ++k)
     for (const unsigned int node : end.face(k))
     {
