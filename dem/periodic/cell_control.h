@@ -23,7 +23,9 @@ struct AxisControl
 };
 
 /// How the edges follow the stress: each one carries walls of a mass on a damper (Wellmann 5.7-5.10), and the stress
-/// applied to them approaches what is prescribed at the rate that strains of `largest_rate` would cause.
+/// applied to them approaches what is prescribed at the rate that strains of `largest_rate` would cause. Near it, the
+/// applied stress is corrected until the mean stress of the grains is what is prescribed, also while the walls move
+/// steadily against their dampers.
 struct CellControlParameters
 {
   double wall_density = 2650.;  ///< [kg/m^3]

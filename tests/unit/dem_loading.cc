@@ -2,6 +2,7 @@
 #include "dem/loading/loading_stage.h"
 #include "dem/periodic/cell_control.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -51,6 +52,35 @@ TEST_CASE("a controlled axis follows its rate at once, and its stress as a dampe
   control.applied[2] = -1e9;
   control.act(cell, {controls[0], controls[1], AxisControl::of_stress(-1e9)}, stress, dt);
   CHECK(cell.rate[2] + cell.acceleration[2] * dt == Approx(-1e3 * 0.1));
+}
+
+TEST_CASE("the stress on an axis is what is prescribed while its walls move steadily")
+{
+  // Grains that dilate: a spring whose rest length grows at a steady rate. Walls on their dampers alone would miss the
+  // stress by 2 zeta sqrt(E rho t_w / L) L'.
+  const double stiffness = GENERATE(1e6, 1e7, 4e8), rate = GENERATE(0.3, -0.3), target = -25e3, dt = 1e-7;
+  CellControlParameters p;
+  p.wall_thickness = 5e-5;
+  CellControl control(p);
+  PeriodicCell cell(Vec3::Constant(0.01));
+  control.start_from(Vec3::Constant(target));
+  const std::array controls{AxisControl::of_rate(0.), AxisControl::of_rate(0.), AxisControl::of_stress(target)};
+  double rest = cell.edges[2] * (1. - target / stiffness), mean = target, worst = 0.;
+  const double damper = 2. * p.damping_ratio * std::sqrt(p.modulus * p.wall_density * p.wall_thickness / 0.01);
+  REQUIRE(damper * std::abs(rate) * 0.01 > 0.001 * std::abs(target));
+  for (int k = 0; k < 120000; ++k) // 16 times the decay of the softest
+  {
+    rest *= 1. + rate * dt;
+    mean = stiffness * (cell.edges[2] - rest) / rest;
+    control.act(cell, controls, Vec3::Constant(mean), dt);
+    cell.rate += cell.acceleration * dt;
+    cell.edges += cell.rate * dt;
+    worst = std::max(worst, std::abs(mean / target - 1.));
+  }
+  CAPTURE(stiffness, rate);
+  CHECK(worst < 0.1);
+  CHECK(mean == Approx(target).epsilon(1e-5));
+  CHECK(cell.rate[2] == Approx(rate * cell.edges[2]).epsilon(1e-3));
 }
 
 TEST_CASE("legs of a cyclic stage lead to both sides and back to zero")
