@@ -50,11 +50,6 @@ void ExplicitBodyParameters::validate() const
       reject("continuum: gravity component ", i, " = ", gravity[i], " m/s^2 is not finite; give a number");
   if (!(damping >= 0) || !std::isfinite(damping))
     reject("continuum: damping = ", damping, " 1/s is not allowed; give zero or a positive number");
-  const MohrCoulomb *const sand = std::get_if<MohrCoulomb>(&material);
-  const double tension_limit = sand ? sand->apex() : HUGE_VAL;
-  if (!(initial_pressure >= -tension_limit) || !std::isfinite(initial_pressure))
-    reject("continuum: initial_pressure = ", initial_pressure, " Pa is not allowed; the material bears no less than ",
-           -tension_limit, " Pa (-c cot phi)");
 }
 
 struct ExplicitBody::Mesh
@@ -78,7 +73,7 @@ ExplicitBody::ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const Explic
   mesh_->triangulation.copy_triangulation(mesh);
   mesh_->dof_handler.distribute_dofs(mesh_->element);
 
-  elements_ = make_solid_elements(mesh_->dof_handler, parameters.material, parameters.initial_pressure);
+  elements_ = make_solid_elements(mesh_->dof_handler, parameters.material, parameters.initial_stress);
 
   const std::size_t n_dofs = mesh_->dof_handler.n_dofs();
   std::vector<dealii::Point<3>> support(n_dofs);
@@ -278,6 +273,17 @@ void ExplicitBody::kick(const double dt)
   if (ledger_.last_step == 0)
     ledger_.initial = ledger_.kinetic + elements_->elastic_energy() + elements_->dissipated_energy();
   ledger_.last_step = dt;
+}
+
+void ExplicitBody::rest()
+{
+  for (std::size_t dof = 0; dof < velocity_.size(); ++dof)
+  {
+    velocity_[dof] = 0;
+    const double force = external_force_[dof] + mass_[dof] * parameters_.gravity[dof % 3] - internal_force_[dof];
+    reaction_force_[dof] = constraint_of_dof_[dof] < 0 ? 0 : -force;
+  }
+  ledger_ = {};
 }
 
 void ExplicitBody::drift(const double dt)

@@ -2,6 +2,7 @@
 
 #include "fe_dealii/body_energy.h"
 #include "fe_dealii/element/element_group.h"
+#include "fe_dealii/material/initial_stress.h"
 #include "fe_dealii/material/material.h"
 
 #include <deal.II/lac/vector.h>
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,7 +33,7 @@ struct ExplicitBodyParameters
   unsigned int degree = 1;                ///< of the elements: 1 has 8 nodes, 2 has 27
   std::array<double, 3> gravity{0, 0, 0}; ///< [m/s²]
   double damping = 0;                     ///< α of the force −α m v [1/s], >= 0
-  double initial_pressure = 0;            ///< p0 of the uniform initial stress −p0 I [Pa], see make_solid_elements()
+  InitialStress initial_stress;           ///< at rest; none if empty. See make_solid_elements()
 
   /// Throws ParameterError.
   void validate() const;
@@ -47,7 +49,7 @@ class ExplicitBody
 {
 public:
   /// Copies the mesh. Throws ParameterError for bad parameters, an empty mesh, a mesh of anything but hexahedra,
-  /// hanging nodes or cells turned inside out.
+  /// hanging nodes, cells turned inside out or an initial stress that the material does not bear.
   ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const ExplicitBodyParameters &parameters);
   ExplicitBody(ExplicitBody &&) noexcept;
   ~ExplicitBody();
@@ -66,6 +68,10 @@ public:
   /// u += dt v⁺. Use the dt of the kick before.
   void drift(double dt);
 
+  /// Takes the present displacement and stresses for a state of rest: no velocity, reactions that hold the prescribed
+  /// dofs, accounts that start anew. Call after compute_internal_force().
+  void rest();
+
   void clear_external_force() { external_force_ = 0; }
   /// @}
 
@@ -83,6 +89,13 @@ public:
   Constraint prescribe_velocity(std::span<const unsigned int> nodes, unsigned int component, double velocity = 0);
 
   void set_velocity(Constraint constraint, double velocity) { constraint_velocity_[constraint] = velocity; }
+
+  double prescribed_velocity(Constraint constraint) const { return constraint_velocity_[constraint]; }
+  /// The constraint of a dof, or nothing if it is free.
+  std::optional<Constraint> constraint_of(std::size_t dof) const
+  {
+    return constraint_of_dof_[dof] < 0 ? std::nullopt : std::optional<Constraint>(constraint_of_dof_[dof]);
+  }
 
   /// Resultant force that the boundary exerts on the body in the constrained component, at the last kick [N].
   double reaction(Constraint constraint) const;
@@ -123,6 +136,8 @@ public:
   /// @name Elements
   /// @{
   const ElementGroup &elements() const { return *elements_; }
+  ElementGroup &elements() { return *elements_; }
+  const std::array<double, 3> &gravity() const { return parameters_.gravity; } ///< [m/s²]
   const Material &material() const { return parameters_.material; }
   ElementState state_of(const std::size_t element) const
   {

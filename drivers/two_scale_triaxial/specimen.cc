@@ -32,7 +32,7 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
   fe::ExplicitBodyParameters body;
   body.material = fe::MohrCoulomb(parameters.continuum);
   body.damping = parameters.continuum_damping;
-  body.initial_pressure = parameters.compression.pressure;
+  body.initial_stress = fe::uniform_pressure(parameters.compression.pressure);
   return std::make_unique<fe::ExplicitBody>(mesh, body);
 }
 

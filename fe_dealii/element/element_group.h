@@ -56,6 +56,10 @@ public:
   /// Elastic stiffness at a displacement, row-major [N/m]; of the stiffest point where it depends on the pressure.
   virtual void stiffness(std::size_t element, const double *displacement, double *matrix) const = 0;
 
+  /// Derivative by the displacement of the forces that compute_forces(displacement, before) would give, row-major
+  /// [N/m]. Not symmetric where the flow is not associated.
+  virtual void tangent(std::size_t element, const double *displacement, const double *before, double *matrix) const = 0;
+
   /// Share of the body in what a two-scale model weighs, at the nodes of the whole body, in [0, 1]: multiplies mass and
   /// forces. Throws ParameterError where the elements know no shares.
   virtual void set_share(std::span<const double> nodal_share) = 0;
@@ -79,6 +83,14 @@ protected:
     for (int k = 0; k < n_element_nodes; ++k)
       for (int i = 0; i < 3; ++i)
         of_element[3 * k + i] = of_body[3 * std::size_t(first[k]) + i];
+  }
+
+  void gather_increment(const std::size_t element, const double *now, const double *before, double *increment) const
+  {
+    const unsigned int *const first = &node[element * n_element_nodes];
+    for (int k = 0; k < n_element_nodes; ++k)
+      for (int i = 0; i < 3; ++i)
+        increment[3 * k + i] = now[3 * std::size_t(first[k]) + i] - before[3 * std::size_t(first[k]) + i];
   }
 
 private:

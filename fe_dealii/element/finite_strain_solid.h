@@ -29,6 +29,10 @@ public:
                                             const double *before) override;
   void lumped_mass(std::size_t element, double *mass) const override;
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
+  void tangent(const std::size_t element, const double *displacement, const double *, double *matrix) const override
+  {
+    stiffness(element, displacement, matrix);
+  }
   void set_share(std::span<const double> nodal_share) override;
   double volume(const std::size_t element) const override { return geometry_[element].whole_volume(); }
   ElementState state_of(std::size_t element, const double *displacement) const override;

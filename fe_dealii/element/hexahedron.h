@@ -79,9 +79,9 @@ inline void internal_force(const Geometry &geometry, const Points (&stress)[6], 
   }
 }
 
-/// Elastic stiffness [N/m], row-major 24×24, share included.
-template <class Law>
-void elastic_stiffness(const Law &material, const Geometry &geometry, double *stiffness)
+/// Stiffness [N/m], row-major 24×24, share included. @param stress_of stress_of(strain, stress) at all points: linear
+template <class StressOf>
+void stiffness(const Geometry &geometry, const StressOf &stress_of, double *matrix)
 {
   for (int column = 0; column < n_dofs; ++column)
   {
@@ -89,10 +89,10 @@ void elastic_stiffness(const Law &material, const Geometry &geometry, double *st
     unit[column] = 1;
     Points unit_strain[6], stress[6];
     strain(geometry, unit, unit_strain);
-    elastic_stress(material, unit_strain, stress);
+    stress_of(unit_strain, stress);
     internal_force(geometry, stress, force);
     for (int row = 0; row < n_dofs; ++row)
-      stiffness[n_dofs * row + column] = force[row];
+      matrix[n_dofs * row + column] = force[row];
   }
 }
 

@@ -8,15 +8,10 @@ namespace bergamo::fe
 
 template <class Law>
 SmallStrainElements<Law>::SmallStrainElements(const Law &law, const int nodes_per_element,
-                                              std::vector<unsigned int> nodes, const int n_packs,
-                                              const double initial_pressure)
-    : ElementGroup(nodes_per_element, std::move(nodes)), law_(law), n_packs_(n_packs)
+                                              std::vector<unsigned int> nodes, std::vector<PointHistory> start)
+    : ElementGroup(nodes_per_element, std::move(nodes)), law_(law), n_packs_(start.size() / size()),
+      history_(std::move(start)), sector_(points_per_pack * history_.size(), Sector::elastic)
 {
-  PointHistory initial{};
-  for (int i = 0; i < 3; ++i)
-    initial.stress[i] -= initial_pressure;
-  history_.assign(n_packs * size(), initial);
-  sector_.assign(points_per_pack * history_.size(), Sector::elastic);
 }
 
 template <class Law>
@@ -95,6 +90,22 @@ double SmallStrainElements<Law>::greatest_stiffness_factor(const std::size_t ele
         greatest = std::max(greatest, law_.stiffness_factor(mean_stress(stress(element, point))));
     }
   return greatest;
+}
+
+template <class Law>
+void SmallStrainElements<Law>::tangent_moduli(const std::size_t element, const int pack,
+                                              const Points (&strain_increment)[6], Points (&moduli)[6][6]) const
+{
+  for (int point = 0; point < points_per_pack; ++point)
+  {
+    Strain increment;
+    for (int i = 0; i < 6; ++i)
+      increment[i] = strain_increment[i][point];
+    const Moduli at_point = law_.tangent(stress(element, points_per_pack * pack + point), increment);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)
+        moduli[i][j][point] = at_point[i][j];
+  }
 }
 
 template <class Law>

@@ -27,9 +27,13 @@ public:
   }
 
 protected:
-  /// @param initial_pressure of the uniform initial stress −p0 I [Pa]
-  SmallStrainElements(const Law &law, int nodes_per_element, std::vector<unsigned int> nodes, int n_packs,
-                      double initial_pressure);
+  /// @param start of the points: initial stresses, the rest zero; as many as packs of the elements, one element after
+  /// the other
+  SmallStrainElements(const Law &law, int nodes_per_element, std::vector<unsigned int> nodes,
+                      std::vector<PointHistory> start);
+
+  /// Moduli of the law at the points of a pack, for a strain increment from the present stresses.
+  void tangent_moduli(std::size_t element, int pack, const Points (&strain_increment)[6], Points (&moduli)[6][6]) const;
 
   virtual const Points &pack_volume(std::size_t element, int pack) const = 0;       ///< weight times Jacobian [m³]
   virtual const Points &pack_share_volume(std::size_t element, int pack) const = 0; ///< times the continuum's share

@@ -6,8 +6,8 @@ namespace bergamo::fe
 template <class Law>
 SmallStrainHexahedra<Law>::SmallStrainHexahedra(const Law &law, std::vector<unsigned int> nodes,
                                                 std::vector<hexahedron::Geometry> geometry,
-                                                const double initial_pressure)
-    : SmallStrainElements<Law>(law, hexahedron::n_nodes, std::move(nodes), 1, initial_pressure),
+                                                std::vector<PointHistory> start)
+    : SmallStrainElements<Law>(law, hexahedron::n_nodes, std::move(nodes), std::move(start)),
       geometry_(std::move(geometry))
 {
 }
@@ -18,11 +18,8 @@ std::optional<std::size_t> SmallStrainHexahedra<Law>::compute_forces(const std::
 {
   for (std::size_t e = begin; e < end; ++e)
   {
-    double now[hexahedron::n_dofs], increment[hexahedron::n_dofs];
-    this->gather(e, displacement, now);
-    this->gather(e, before, increment);
-    for (int dof = 0; dof < hexahedron::n_dofs; ++dof)
-      increment[dof] = now[dof] - increment[dof];
+    double increment[hexahedron::n_dofs];
+    this->gather_increment(e, displacement, before, increment);
     Points strain[6];
     hexahedron::strain(geometry_[e], increment, strain);
     PointHistory &history = this->history(e, 0);
@@ -41,10 +38,27 @@ void SmallStrainHexahedra<Law>::lumped_mass(const std::size_t element, double *m
 template <class Law>
 void SmallStrainHexahedra<Law>::stiffness(const std::size_t element, const double *, double *matrix) const
 {
-  hexahedron::elastic_stiffness(this->law(), geometry_[element], matrix);
+  hexahedron::stiffness(
+      geometry_[element],
+      [&](const Points(&unit_strain)[6], Points(&stress)[6]) { elastic_stress(this->law(), unit_strain, stress); },
+      matrix);
   const double factor = this->greatest_stiffness_factor(element);
   for (int entry = 0; entry < hexahedron::n_dofs * hexahedron::n_dofs; ++entry)
     matrix[entry] *= factor;
+}
+
+template <class Law>
+void SmallStrainHexahedra<Law>::tangent(const std::size_t element, const double *displacement, const double *before,
+                                        double *matrix) const
+{
+  double increment[hexahedron::n_dofs];
+  this->gather_increment(element, displacement, before, increment);
+  Points strain[6], moduli[6][6];
+  hexahedron::strain(geometry_[element], increment, strain);
+  this->tangent_moduli(element, 0, strain, moduli);
+  hexahedron::stiffness(
+      geometry_[element],
+      [&](const Points(&unit_strain)[6], Points(&stress)[6]) { apply_moduli(moduli, unit_strain, stress); }, matrix);
 }
 
 template <class Law>

@@ -11,13 +11,15 @@ template <class Law>
 class SmallStrainHexahedra final : public SmallStrainElements<Law>
 {
 public:
+  /// @param start see SmallStrainElements
   SmallStrainHexahedra(const Law &law, std::vector<unsigned int> nodes, std::vector<hexahedron::Geometry> geometry,
-                       double initial_pressure);
+                       std::vector<PointHistory> start);
 
   std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
                                             const double *before) override;
   void lumped_mass(std::size_t element, double *mass) const override;
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
+  void tangent(std::size_t element, const double *displacement, const double *before, double *matrix) const override;
   void set_share(std::span<const double> nodal_share) override;
 
   const hexahedron::Geometry &geometry(const std::size_t element) const { return geometry_[element]; }

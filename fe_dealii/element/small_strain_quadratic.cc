@@ -42,14 +42,32 @@ void add_internal_force(const Geometry &geometry, const int pack, const Points (
   }
 }
 
+/// Adds the stiffness of a pack's points, row-major. @param stress_of stress_of(strain, stress): linear
+template <class Geometry, class StressOf>
+void add_stiffness(const Geometry &geometry, const int pack, const StressOf &stress_of, double *matrix)
+{
+  constexpr int n = 3 * Geometry::nodes;
+  for (int column = 0; column < n; ++column)
+  {
+    double unit[n] = {}, force[n] = {};
+    unit[column] = 1;
+    Points unit_strain[6], stress[6];
+    strain(geometry, pack, unit, unit_strain);
+    stress_of(unit_strain, stress);
+    add_internal_force(geometry, pack, stress, force);
+    for (int row = 0; row < n; ++row)
+      matrix[n * row + column] += force[row];
+  }
+}
+
 } // namespace
 
 template <class Law>
 SmallStrainQuadratic<Law>::SmallStrainQuadratic(const Law &law, std::vector<unsigned int> nodes,
                                                 std::vector<Geometry> geometry, std::vector<double> mass_share,
-                                                const double initial_pressure)
-    : SmallStrainElements<Law>(law, n_nodes, std::move(nodes), n_packs, initial_pressure),
-      geometry_(std::move(geometry)), mass_share_(std::move(mass_share))
+                                                std::vector<PointHistory> start)
+    : SmallStrainElements<Law>(law, n_nodes, std::move(nodes), std::move(start)), geometry_(std::move(geometry)),
+      mass_share_(std::move(mass_share))
 {
 }
 
@@ -59,11 +77,8 @@ std::optional<std::size_t> SmallStrainQuadratic<Law>::compute_forces(const std::
 {
   for (std::size_t e = begin; e < end; ++e)
   {
-    double now[3 * n_nodes], increment[3 * n_nodes];
-    this->gather(e, displacement, now);
-    this->gather(e, before, increment);
-    for (int dof = 0; dof < 3 * n_nodes; ++dof)
-      increment[dof] = now[dof] - increment[dof];
+    double increment[3 * n_nodes];
+    this->gather_increment(e, displacement, before, increment);
     double *const force = this->force(e);
     std::fill(force, force + 3 * n_nodes, 0.);
     for (int pack = 0; pack < n_packs; ++pack)
@@ -89,21 +104,35 @@ void SmallStrainQuadratic<Law>::lumped_mass(const std::size_t element, double *m
 template <class Law>
 void SmallStrainQuadratic<Law>::stiffness(const std::size_t element, const double *, double *matrix) const
 {
-  constexpr int n = 3 * n_nodes;
   const double factor = this->greatest_stiffness_factor(element);
-  for (int column = 0; column < n; ++column)
+  std::fill(matrix, matrix + 9 * n_nodes * n_nodes, 0.);
+  for (int pack = 0; pack < n_packs; ++pack)
+    add_stiffness(
+        geometry_[element], pack,
+        [&](const Points(&unit_strain)[6], Points(&stress)[6])
+        {
+          elastic_stress(this->law(), unit_strain, stress);
+          for (Points &component : stress)
+            component *= factor;
+        },
+        matrix);
+}
+
+template <class Law>
+void SmallStrainQuadratic<Law>::tangent(const std::size_t element, const double *displacement, const double *before,
+                                        double *matrix) const
+{
+  double increment[3 * n_nodes];
+  this->gather_increment(element, displacement, before, increment);
+  std::fill(matrix, matrix + 9 * n_nodes * n_nodes, 0.);
+  for (int pack = 0; pack < n_packs; ++pack)
   {
-    double unit[n] = {}, force[n] = {};
-    unit[column] = factor;
-    for (int pack = 0; pack < n_packs; ++pack)
-    {
-      Points unit_strain[6], stress[6];
-      strain(geometry_[element], pack, unit, unit_strain);
-      elastic_stress(this->law(), unit_strain, stress);
-      add_internal_force(geometry_[element], pack, stress, force);
-    }
-    for (int row = 0; row < n; ++row)
-      matrix[n * row + column] = force[row];
+    Points strain_increment[6], moduli[6][6];
+    strain(geometry_[element], pack, increment, strain_increment);
+    this->tangent_moduli(element, pack, strain_increment, moduli);
+    add_stiffness(
+        geometry_[element], pack,
+        [&](const Points(&unit_strain)[6], Points(&stress)[6]) { apply_moduli(moduli, unit_strain, stress); }, matrix);
   }
 }
 

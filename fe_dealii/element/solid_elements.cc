@@ -12,8 +12,10 @@
 #include <deal.II/grid/tria.h>
 
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <sstream>
+#include <type_traits>
 
 namespace bergamo::fe
 {
@@ -27,7 +29,8 @@ void for_each_cell(const dealii::DoFHandler<3> &dof_handler, const unsigned int 
   const dealii::FE_Q<3> scalar(degree);
   const dealii::QGauss<3> quadrature(degree + 1);
   dealii::FEValues<3> values(scalar, quadrature,
-                             dealii::update_values | dealii::update_gradients | dealii::update_JxW_values);
+                             dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
+                                 dealii::update_quadrature_points);
   for (const auto &cell : dof_handler.get_triangulation().active_cell_iterators())
   {
     values.reinit(cell);
@@ -69,9 +72,51 @@ std::vector<unsigned int> element_nodes(const dealii::DoFHandler<3> &dof_handler
 }
 
 template <class Law>
-std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3> &dof_handler, const Law &law,
-                                                     const double initial_pressure)
+void check_initial_stress(const Law &law, const Stress &stress, const dealii::Point<3> &place)
 {
+  double excess = 0, scale = 0;
+  for (const double component : stress)
+    scale += std::abs(component);
+  if constexpr (std::is_same_v<Law, MohrCoulomb>)
+    excess = law.yield_function(stress);
+  constexpr double rounding = 1e-12;
+  if (std::isfinite(scale) && excess <= rounding * scale)
+    return;
+  std::ostringstream message;
+  message << "continuum: the initial stress at (" << place << ") m, xx " << stress[0] << " yy " << stress[1] << " zz "
+          << stress[2] << " xy " << stress[3] << " yz " << stress[4] << " zx " << stress[5] << " Pa, ";
+  if (std::isfinite(scale))
+    message << "is " << excess << " Pa beyond the yield surface; choose one that the material bears";
+  else
+    message << "is not finite; give numbers";
+  throw ParameterError(message.str());
+}
+
+/// The points of a cell at rest.
+template <class Law>
+void add_start(const dealii::FEValues<3> &values, const Law &law, const InitialStress &initial_stress,
+               std::vector<PointHistory> &start)
+{
+  const unsigned int n_points = values.n_quadrature_points;
+  const std::size_t first = start.size();
+  start.resize(first + (n_points + points_per_pack - 1) / points_per_pack, PointHistory{});
+  if (!initial_stress)
+    return;
+  for (unsigned int point = 0; point < n_points; ++point)
+  {
+    const dealii::Point<3> &place = values.quadrature_point(point);
+    const Stress stress = initial_stress({place[0], place[1], place[2]});
+    check_initial_stress(law, stress, place);
+    for (int i = 0; i < 6; ++i)
+      start[first + point / points_per_pack].stress[i][point % points_per_pack] = stress[i];
+  }
+}
+
+template <class Law>
+std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+                                                     const InitialStress &initial_stress)
+{
+  std::vector<PointHistory> start;
   std::vector<hexahedron::Geometry> geometries;
   for_each_cell(dof_handler, 1,
                 [&](const dealii::FEValues<3> &values)
@@ -87,9 +132,10 @@ std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3>
                   geometry.share_volume = geometry.volume;
                   geometry.volume_fraction = geometry.volume / sum(geometry.volume);
                   geometries.push_back(geometry);
+                  add_start(values, law, initial_stress, start);
                 });
   return std::make_unique<SmallStrainHexahedra<Law>>(law, element_nodes(dof_handler), std::move(geometries),
-                                                     initial_pressure);
+                                                     std::move(start));
 }
 
 /// Geometries and lumped masses of elements that are integrated in full.
@@ -102,9 +148,16 @@ struct Solids
 
   /// Masses by the diagonal of the consistent matrix, scaled to the whole (Hinton, Rock, Zienkiewicz, Earthq. Eng.
   /// Struct. Dyn. 4 (1976) 245-249): positive for any element, where the row sum is not; on bricks, Simpson's rule.
-  explicit Solids(const dealii::DoFHandler<3> &dof_handler)
+  /// @param take take(values): called with the values of each cell
+  template <class Take>
+  Solids(const dealii::DoFHandler<3> &dof_handler, const Take &take)
   {
-    for_each_cell(dof_handler, n_nodes == 8 ? 1 : 2, [&](const dealii::FEValues<3> &values) { add(values); });
+    for_each_cell(dof_handler, n_nodes == 8 ? 1 : 2,
+                  [&](const dealii::FEValues<3> &values)
+                  {
+                    add(values);
+                    take(values);
+                  });
   }
 
 private:
@@ -133,17 +186,19 @@ private:
 
 template <class Law>
 std::unique_ptr<ElementGroup> small_strain_quadratic(const dealii::DoFHandler<3> &dof_handler, const Law &law,
-                                                     const double initial_pressure)
+                                                     const InitialStress &initial_stress)
 {
-  Solids<27> solids(dof_handler);
+  std::vector<PointHistory> start;
+  Solids<27> solids(dof_handler,
+                    [&](const dealii::FEValues<3> &values) { add_start(values, law, initial_stress, start); });
   return std::make_unique<SmallStrainQuadratic<Law>>(law, element_nodes(dof_handler), std::move(solids.geometry),
-                                                     std::move(solids.mass_share), initial_pressure);
+                                                     std::move(solids.mass_share), std::move(start));
 }
 
 template <class Law, int n_nodes>
 std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_handler, const Law &law)
 {
-  Solids<n_nodes> solids(dof_handler);
+  Solids<n_nodes> solids(dof_handler, [](const dealii::FEValues<3> &) {});
   return std::make_unique<FiniteStrainSolid<Law, n_nodes>>(law, element_nodes(dof_handler), std::move(solids.geometry),
                                                            std::move(solids.mass_share));
 }
@@ -151,23 +206,23 @@ std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_han
 struct Maker
 {
   const dealii::DoFHandler<3> &dof_handler;
-  double initial_pressure;
+  const InitialStress &initial_stress;
 
   unsigned int degree() const { return dof_handler.get_fe().degree; }
 
   template <class Law>
   std::unique_ptr<ElementGroup> of_small_strain(const Law &law) const
   {
-    return degree() == 1 ? small_strain_trilinear(dof_handler, law, initial_pressure)
-                         : small_strain_quadratic(dof_handler, law, initial_pressure);
+    return degree() == 1 ? small_strain_trilinear(dof_handler, law, initial_stress)
+                         : small_strain_quadratic(dof_handler, law, initial_stress);
   }
 
   template <class Law>
   std::unique_ptr<ElementGroup> of_large_strain(const Law &law) const
   {
-    if (initial_pressure != 0)
-      throw ParameterError("continuum: initial_pressure = " + std::to_string(initial_pressure) +
-                           " Pa in a law of large strain, which has no stress at rest; set it to 0");
+    if (initial_stress)
+      throw ParameterError("continuum: initial_stress is given for a law of large strain, which has no stress at rest; "
+                           "leave it out");
     if (degree() == 1)
       return finite_strain<Law, 8>(dof_handler, law);
     return finite_strain<Law, 27>(dof_handler, law);
@@ -183,9 +238,9 @@ struct Maker
 } // namespace
 
 std::unique_ptr<ElementGroup> make_solid_elements(const dealii::DoFHandler<3, 3> &dof_handler, const Material &material,
-                                                  const double initial_pressure)
+                                                  const InitialStress &initial_stress)
 {
-  return std::visit(Maker{dof_handler, initial_pressure}, material);
+  return std::visit(Maker{dof_handler, initial_stress}, material);
 }
 
 } // namespace bergamo::fe

@@ -28,6 +28,17 @@ void elastic_stress(const Law &material, const Points (&strain)[6], Points (&str
     stress[i] = material.shear_modulus() * strain[i];
 }
 
+/// Stress of a strain by moduli of each point.
+inline void apply_moduli(const Points (&moduli)[6][6], const Points (&strain)[6], Points (&stress)[6])
+{
+  for (int i = 0; i < 6; ++i)
+  {
+    stress[i] = moduli[i][0] * strain[0];
+    for (int j = 1; j < 6; ++j)
+      stress[i] += moduli[i][j] * strain[j];
+  }
+}
+
 /// Carries the stresses over a strain increment.
 inline void update_stress(const LinearElastic &material, const Points &, const Points (&strain_increment)[6],
                           PointHistory &history, Sector *)

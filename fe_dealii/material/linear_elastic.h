@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fe_dealii/material/elastic_parameters.h"
+#include "fe_dealii/material/tensor.h"
 
 #include <cmath>
 
@@ -18,6 +19,9 @@ public:
   double bulk_modulus() const { return p.bulk_modulus(); }                         ///< K [Pa]
   double lame_modulus() const { return bulk_modulus() - 2 * shear_modulus() / 3; } ///< λ [Pa]
   double density() const { return p.density; }                                     ///< [kg/m³]
+
+  /// Moduli; the same from any stress, for any increment.
+  Moduli tangent(const Stress &, const Strain &) const { return isotropic_moduli(lame_modulus(), shear_modulus()); }
 
 private:
   ElasticParameters p;

@@ -3,6 +3,7 @@
 #include "fe_dealii/material/principal.h"
 #include "fe_dealii/material/tensor.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -67,6 +68,10 @@ public:
   StressUpdate return_to_surface(const Stress &stress_old, const Stress &stress_trial,
                                  const PrincipalFrame<double> &frame, double stiffness = 1) const;
 
+  /// Derivative of update()'s stress by the strain increment; exact, since the return is linear in each sector. Not
+  /// symmetric where dilation and friction angle differ.
+  Moduli tangent(const Stress &stress_old, const Strain &strain_increment) const;
+
   bool depends_on_pressure() const { return parameters_.reference_pressure > 0; }
 
   /// Factor of the moduli at a mean stress, tension positive. `mean` may be a SIMD pack.
@@ -125,6 +130,10 @@ public:
   const MohrCoulombParameters &parameters() const { return parameters_; }
 
 private:
+  using PrincipalMatrix = std::array<std::array<double, 3>, 3>;
+  /// Derivative of the principal stresses after the return by those of the trial stress.
+  PrincipalMatrix principal_tangent(Sector sector) const;
+
   static constexpr double least_pressure_share = 0.01; // of the reference pressure
 
   MohrCoulombParameters parameters_;

@@ -13,6 +13,23 @@ using Stress = std::array<double, 6>;
 /// component), so that the plain sum of products with a Stress is an energy density.
 using Strain = std::array<double, 6>;
 
+/// Derivative of a Stress by a Strain, [stress component][strain component] [Pa].
+using Moduli = std::array<std::array<double, 6>, 6>;
+
+/// Moduli of an isotropic elastic solid. @param lame, shear moduli λ, G [Pa]
+inline Moduli isotropic_moduli(const double lame, const double shear)
+{
+  Moduli moduli{};
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+      moduli[i][j] = lame;
+    moduli[i][i] += 2 * shear;
+    moduli[3 + i][3 + i] = shear;
+  }
+  return moduli;
+}
+
 /// stress : strain [J/m³].
 inline double energy_density(const Stress &stress, const Strain &strain)
 {

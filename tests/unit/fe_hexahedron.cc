@@ -149,7 +149,7 @@ TEST_CASE("Internal force is work-conjugate to the strain, the stiffness symmetr
 
   dealii::LAPACKFullMatrix<double> k(24);
   double raw[24][24];
-  hexahedron::elastic_stiffness(sand(body).law(), geometry, &raw[0][0]);
+  body.elements().stiffness(0, body.displacement().begin(), &raw[0][0]);
   for (int i = 0; i < 24; ++i)
     for (int j = 0; j < 24; ++j)
     {

@@ -109,8 +109,8 @@ TEST_CASE("Mesh and body: user's mistakes are named", "[fe]")
   parameters.damping = -1;
   CHECK_THROWS_WITH(box({}, parameters), Contains("damping"));
   parameters = {};
-  parameters.initial_pressure = -1e3;
-  CHECK_THROWS_WITH(box({}, parameters), Contains("initial_pressure"));
+  parameters.initial_stress = uniform_pressure(-1e3);
+  CHECK_THROWS_WITH(box({}, parameters), Contains("initial stress at") && Contains("beyond the yield surface"));
   parameters = {};
   parameters.gravity[1] = NAN;
   CHECK_THROWS_WITH(box({}, parameters), Contains("gravity"));
@@ -132,7 +132,7 @@ TEST_CASE("VTU output: all fields, no leftovers, a clear error", "[fe]")
   std::filesystem::remove_all(folder);
   std::filesystem::create_directory(folder);
   ExplicitBodyParameters parameters;
-  parameters.initial_pressure = 1000;
+  parameters.initial_stress = uniform_pressure(1000);
   const ExplicitBody body = box({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, parameters);
   write_vtu(body, folder / "body.vtu");
   std::ifstream file(folder / "body.vtu");

@@ -39,7 +39,7 @@ TwoScaleModel make_model(const coupling::Projection projection, const double ini
   dealii::Triangulation<3> mesh;
   fe::make_box({{0., 0., 0.}, {edge, edge, 2. * layer}, {3, 3, 2}}, mesh);
   fe::ExplicitBodyParameters body;
-  body.initial_pressure = initial_pressure;
+  body.initial_stress = fe::uniform_pressure(initial_pressure);
   body.material = fe::MohrCoulomb({.cohesion = 1e9}); // elastic: what is tested is the coupling
   TwoScaleModel model(std::move(simulation), std::make_unique<fe::ExplicitBody>(mesh, body), parameters.time_step);
 

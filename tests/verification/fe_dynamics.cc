@@ -55,7 +55,7 @@ struct Everything
     ExplicitBodyParameters parameters;
     parameters.gravity = {0.3, 0, -9.81};
     parameters.damping = 20;
-    parameters.initial_pressure = 2000;
+    parameters.initial_stress = uniform_pressure(2000);
     dealii::Triangulation<3> mesh;
     make_box({{0, 0, 0}, {1, 1, 1}, {9, 8, 7}}, mesh);
     dealii::GridTools::distort_random(0.15, mesh, true, 5);

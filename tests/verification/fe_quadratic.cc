@@ -115,7 +115,7 @@ TEST_CASE("a sand whose stiffness grows with the pressure keeps the account of i
     ExplicitBodyParameters parameters;
     parameters.material = MohrCoulomb({.young_modulus = 60e6, .reference_pressure = 1e5});
     parameters.degree = degree;
-    parameters.initial_pressure = 2e4;
+    parameters.initial_stress = uniform_pressure(2e4);
     ExplicitBody body = body_of({{0, 0, 0}, {1, 1, 1}, {4, 4, 3}}, parameters, 0.15);
     for (unsigned int id = 0; id < 5; ++id)
       body.prescribe_velocity(id, id / 2);
@@ -144,7 +144,7 @@ TEST_CASE("the stable step of a sand under pressure follows its stiffness", "[fe
   for (int k = 0; k < 2; ++k)
   {
     parameters.material = MohrCoulomb({.reference_pressure = 1e5, .stiffness_exponent = 0.5});
-    parameters.initial_pressure = k == 0 ? 1e5 : 16e5;
+    parameters.initial_stress = uniform_pressure(k == 0 ? 1e5 : 16e5);
     step[k] = stable_step(body_of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, parameters, 0)).time_step;
   }
   CHECK(step[0] / step[1] == Approx(2).epsilon(1e-6)); // fourth root of the pressure
