@@ -28,7 +28,7 @@ FLOORS = {
         "material": 2, "mesh": 2,
         "element": 3, "boundary": 3,
         "explicit_body": 4,
-        "stable_step": 5, "output": 5, "equilibrium": 5,
+        "stable_step": 5, "output": 5, "equilibrium": 5, "conditions": 5,
     },
 }
 

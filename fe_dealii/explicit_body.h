@@ -138,6 +138,7 @@ public:
   const ElementGroup &elements() const { return *elements_; }
   ElementGroup &elements() { return *elements_; }
   const std::array<double, 3> &gravity() const { return parameters_.gravity; } ///< [m/s²]
+  double damping() const { return parameters_.damping; } ///< α [1/s]
   const Material &material() const { return parameters_.material; }
   ElementState state_of(const std::size_t element) const
   {

@@ -1,0 +1,114 @@
+#include "fe_dealii/conditions/boundary_conditions.h"
+
+#include "fe_dealii/error.h"
+
+#include <sstream>
+#include <utility>
+
+namespace bergamo::fe
+{
+namespace
+{
+
+constexpr std::pair<const char *, ConditionKind> kinds[] = {{"displacement", ConditionKind::displacement},
+                                                            {"velocity", ConditionKind::velocity},
+                                                            {"traction", ConditionKind::traction},
+                                                            {"pressure", ConditionKind::pressure}};
+
+[[noreturn]] void reject(const std::string &text, const std::string &reason)
+{
+  throw ParameterError("boundary condition '" + text + "': " + reason +
+                       "; write BOUNDARY displacement|velocity|traction x|y|z FUNCTION or BOUNDARY pressure FUNCTION, "
+                       "such as 5 displacement z -0.01*t");
+}
+
+bool is_motion(const ConditionKind kind)
+{
+  return kind == ConditionKind::displacement || kind == ConditionKind::velocity;
+}
+
+} // namespace
+
+BoundaryCondition parse_condition(const std::string &text)
+{
+  BoundaryCondition condition;
+  std::istringstream words(text);
+  long long id;
+  std::string kind;
+  if (!(words >> id) || id < 0)
+    reject(text, "it does not begin with the number of a boundary");
+  condition.boundary_id = id;
+  words >> kind;
+  bool known = false;
+  for (const auto &[name, value] : kinds)
+    if (kind == name)
+    {
+      condition.kind = value;
+      known = true;
+    }
+  if (!known)
+    reject(text, "'" + kind + "' is no kind of condition");
+  if (condition.kind != ConditionKind::pressure)
+  {
+    std::string component;
+    words >> component;
+    const std::size_t place = std::string("xyz").find(component);
+    if (component.size() != 1 || place == std::string::npos)
+      reject(text, "'" + component + "' is no component");
+    condition.component = place;
+  }
+  std::string function;
+  std::getline(words >> std::ws, function);
+  if (function.empty())
+    reject(text, "the function of the time is missing");
+  condition.value = TimeFunction(function);
+  return condition;
+}
+
+BoundaryConditions::BoundaryConditions(ExplicitBody &body, std::vector<BoundaryCondition> conditions) : body(body)
+{
+  for (BoundaryCondition &condition : conditions)
+  {
+    Part part{std::move(condition), {}, {}};
+    const BoundaryCondition &c = part.condition;
+    if (c.component > 2)
+      throw ParameterError("boundary condition: component " + std::to_string(c.component) +
+                           " is not allowed; choose 0, 1 or 2 for x, y, z");
+    if (is_motion(c.kind))
+      part.constraint = body.prescribe_velocity(c.boundary_id, c.component);
+    else
+      part.load.emplace(boundary_surface(body.dof_handler(), c.boundary_id), body.node_position());
+    parts.push_back(std::move(part));
+  }
+}
+
+void BoundaryConditions::apply(const double time, const double dt)
+{
+  const std::span<double> force(body.external_force().begin(), body.external_force().size());
+  const std::span<const double> displacement(body.displacement().begin(), body.displacement().size());
+  for (const Part &part : parts)
+  {
+    const TimeFunction &value = part.condition.value;
+    switch (part.condition.kind)
+    {
+    case ConditionKind::displacement:
+      body.set_velocity(*part.constraint, (value(time + dt) - value(time)) / dt);
+      break;
+    case ConditionKind::velocity: // lives at half steps
+      body.set_velocity(*part.constraint, value(time + 0.5 * dt));
+      break;
+    case ConditionKind::traction:
+    {
+      std::array<double, 3> traction{};
+      traction[part.condition.component] = value(time);
+      part.load->add_traction(traction, force);
+      break;
+    }
+    case ConditionKind::pressure:
+      part.load->add_pressure(value(time), displacement, force);
+      break;
+    }
+  }
+}
+
+} // namespace bergamo::fe

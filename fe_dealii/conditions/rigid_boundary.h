@@ -1,0 +1,83 @@
+#pragma once
+
+#include "fe_dealii/explicit_body.h"
+
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bergamo::fe
+{
+
+/// A rigid body that is free to move: mass and inertia without the nodes' own share.
+struct RigidBodyParameters
+{
+  double mass = 0;                 ///< >= 0 [kg]
+  std::array<double, 3> centre{};  ///< centre of mass at the start [m]
+  std::array<double, 3> inertia{}; ///< about the global axes through the centre, no products; >= 0 [kg m²]
+
+  /// Throws ParameterError.
+  void validate() const;
+};
+
+/// Nodes of a body that move as one rigid body: a footing, a pile's head, a plate. Either its velocities are
+/// prescribed, or it moves freely under its own weight, what the continuum and others exert on its nodes, and a force
+/// and moment of the user's. Nodes keep their distances to rounding at any rotation.
+class RigidBoundary
+{
+public:
+  using Vector = std::array<double, 3>;
+
+  /// Takes all components of the nodes. Throws ParameterError for bad parameters, no nodes, or nodes of which a
+  /// component is prescribed already.
+  RigidBoundary(ExplicitBody &body, std::span<const unsigned int> nodes, const RigidBodyParameters &parameters);
+
+  /// To be called in every step, between compute_internal_force() and kick(). @param dt [s]
+  /// @{
+
+  /// Moves on with prescribed velocities. @param velocity of the centre [m/s]; @param angular_velocity [rad/s]
+  void prescribe(const Vector &velocity, const Vector &angular_velocity, double dt);
+
+  /// Moves on freely. @param force on the centre [N]; @param moment about it [N m]; both beside weight and nodes
+  void move(const Vector &force, const Vector &moment, double dt);
+  /// @}
+
+  /// Resultant of the continuum, its weight and the external forces on the nodes at the last call, and its moment about
+  /// the centre [N, N m].
+  const Vector &force() const { return force_; }
+  const Vector &moment() const { return moment_; }
+
+  const Vector &centre() const { return now.centre; }         ///< present; of the rigid body and the nodes together [m]
+  const Vector &velocity() const { return now.velocity; }     ///< of the centre, at half steps [m/s]
+  const Vector &angular_velocity() const { return now.spin; } ///< at half steps [rad/s]
+  double mass() const { return mass_; }                       ///< of the rigid body and the nodes together [kg]
+  double kinetic_energy() const;                              ///< without the nodes, at the last half step [J]
+
+  /// What a restart needs, as views.
+  std::vector<std::pair<std::string, std::span<double>>> state();
+
+private:
+  void gather_forces();
+  void advance(double dt);
+
+  ExplicitBody &body;
+  RigidBodyParameters parameters;
+  std::vector<unsigned int> nodes;
+  std::vector<ExplicitBody::Constraint> constraints; // three a node
+  std::vector<Vector> arm;                           // from the centre, at the start
+  Vector own_centre{};                               // of the rigid body alone, from the centre, at the start
+  double mass_;
+  double inertia[3][3]; // of both together, at the start
+  Vector force_{}, moment_{};
+
+  struct Motion // doubles only: it is the state
+  {
+    Vector centre, velocity{}, spin{}, angular_momentum{};
+    double rotation[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  };
+  Motion now;
+};
+
+} // namespace bergamo::fe
