@@ -4,14 +4,13 @@
 #include "benchmarks/hourglass.h"
 #include "benchmarks/packing_cache.h"
 #include "benchmarks/program.h"
+#include "benchmarks/resident_memory.h"
 #include "benchmarks/step_timing.h"
 #include "benchmarks/tiling.h"
 
 #include <omp.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -121,15 +120,6 @@ nlohmann::json flowing(Options options)
   std::cout << "flowing hourglass: " << f.n_grains << " superquadrics and " << f.n_wall_spheres << " fixed spheres, "
             << f.coordination_number << " contacts a grain, mean speed " << f.mean_speed << " m/s\n";
   return measure_efficiency(*hourglass, options);
-}
-
-/// Resident memory of this process now [byte].
-double resident_memory()
-{
-  std::ifstream file("/proc/self/statm");
-  double total = 0., resident = 0.;
-  file >> total >> resident;
-  return resident * sysconf(_SC_PAGESIZE);
 }
 
 nlohmann::json size(Options options)
