@@ -1,0 +1,110 @@
+#include "drivers/strip_footing/footing_model.h"
+
+#include "fe_dealii/mesh/box_mesh.h"
+#include "fe_dealii/stable_step.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace bergamo::driver
+{
+namespace
+{
+
+enum Boundary : unsigned int
+{
+  axis,
+  far_side,
+  front,
+  back,
+  bottom,
+  surface,
+  footing
+};
+
+fe::ExplicitBody make_ground(const FootingParameters &p)
+{
+  const double size = p.element_size();
+  const auto cells = [&](const double length) { return std::max(1u, unsigned(std::lround(length / size))); };
+  fe::BoxMeshParameters box;
+  box.subdivisions = {cells(p.ground_width), 1, cells(p.ground_depth)};
+  box.minimum = {0, 0, -size * box.subdivisions[2]};
+  box.maximum = {size * box.subdivisions[0], size, 0};
+  dealii::Triangulation<3> mesh;
+  fe::make_box(box, mesh);
+  for (const auto &cell : mesh.active_cell_iterators())
+    for (const auto &face : cell->face_iterators())
+      if (face->at_boundary() && face->boundary_id() == surface && face->center()[0] < p.elements_across * size)
+        face->set_boundary_id(footing);
+
+  fe::ExplicitBodyParameters body;
+  body.material = fe::MohrCoulomb(p.continuum);
+  body.degree = p.degree;
+  body.gravity = {0, 0, -p.gravity};
+  body.damping = p.damping;
+  if (p.gravity > 0 || p.surcharge > 0)
+    body.initial_stress = fe::geostatic_stress({.surface_height = 0,
+                                                .unit_weight = p.continuum.density * p.gravity,
+                                                .earth_pressure_at_rest = p.earth_pressure_at_rest,
+                                                .surcharge = p.surcharge});
+  return fe::ExplicitBody(mesh, body);
+}
+
+/// Downwards; from rest to a steady speed, and the settlement at the end.
+fe::TimeFunction velocity_of(const FootingParameters &p)
+{
+  const double ramp = p.ramp * p.loading_time;
+  std::ostringstream text;
+  text.precision(17);
+  text << -p.settlement / (p.loading_time - 0.5 * ramp) << "*min(t/" << ramp << ", 1)";
+  return fe::TimeFunction(text.str());
+}
+
+fe::BoundaryCondition motion(const unsigned int boundary, const unsigned int component, fe::TimeFunction velocity = 0.)
+{
+  return {boundary, fe::ConditionKind::velocity, component, std::move(velocity)};
+}
+
+} // namespace
+
+FootingModel::FootingModel(const FootingParameters &p)
+    : area(0.5 * p.width * p.element_size()), ground(std::make_unique<fe::ExplicitBody>(make_ground(p)))
+{
+  std::vector<fe::BoundaryCondition> list;
+  list.push_back(motion(footing, 2, velocity_of(p)));
+  if (p.rough)
+    list.push_back(motion(footing, 0));
+  for (const auto &[boundary, component] : {std::pair(axis, 0u), std::pair(far_side, 0u), std::pair(front, 1u),
+                                            std::pair(back, 1u), std::pair(bottom, 0u), std::pair(bottom, 2u)})
+    list.push_back(motion(boundary, component));
+  conditions = std::make_unique<fe::BoundaryConditions>(*ground, std::move(list));
+  footing_nodes = ground->boundary_nodes(footing);
+
+  const std::span<double> force(ground->external_force().begin(), ground->external_force().size());
+  if (p.surcharge > 0)
+    for (const unsigned int boundary : {unsigned(surface), unsigned(footing)})
+      fe::SurfaceLoad(fe::boundary_surface(ground->dof_handler(), boundary), ground->node_position())
+          .add_traction({0, 0, -p.surcharge}, force);
+  start_report = fe::find_equilibrium(*ground);
+  stable = fe::stable_step(*ground).time_step;
+  dt = p.step_share * stable;
+}
+
+void FootingModel::compute_forces(const double time)
+{
+  conditions->apply(time, dt);
+  ground->compute_internal_force();
+}
+
+double FootingModel::footing_pressure() const
+{
+  double force = 0; // of the footing on the ground: the reaction and its part of the surcharge
+  for (const unsigned int node : footing_nodes)
+    force += ground->reaction_force()[3 * std::size_t(node) + 2] + ground->external_force()[3 * std::size_t(node) + 2];
+  return -force / area;
+}
+
+} // namespace bergamo::driver

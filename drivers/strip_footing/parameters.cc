@@ -1,0 +1,83 @@
+#include "drivers/strip_footing/parameters.h"
+
+#include "dem/core/error.h"
+#include "drivers/common/continuum_parameters.h"
+#include "drivers/strip_footing/bearing_capacity.h"
+
+#include <sstream>
+
+namespace bergamo::driver
+{
+
+FootingParameters::FootingParameters()
+{
+  continuum.young_modulus = 20e6;
+  continuum.poisson_ratio = 0.3;
+  continuum.friction_angle = 0;
+  continuum.dilation_angle = 0;
+  continuum.cohesion = 10e3;
+  continuum.density = 1800;
+}
+
+void FootingParameters::declare(ParameterFile &file)
+{
+  file.add("Footing", "width", width, "B [m]", Range::positive());
+  file.add("Footing", "rough", rough, "no slip between footing and ground");
+  file.add("Footing", "settlement", settlement, "at the end [m]", Range::positive());
+  file.add("Footing", "loading time", loading_time, "long against the time of a wave over the ground [s]",
+           Range::positive());
+  file.add("Footing", "ramp", ramp, "share of the loading time in which the footing speeds up",
+           Range::strictly_between(0, 1));
+
+  file.add("Ground", "width", ground_width, "from the axis of symmetry, more than half of the footing [m]",
+           Range::positive());
+  file.add("Ground", "depth", ground_depth, "[m]", Range::positive());
+  file.add("Ground", "elements under half the footing", elements_across,
+           "whose nodes are all held, beside a half one at the edge; sets the size of all elements",
+           Range::between(1, 200));
+  file.add("Ground", "element degree", degree, "1: hexahedra of 8 nodes; 2: of 27 nodes", Range::between(1, 2));
+  file.add("Ground", "gravity", gravity, "downwards; 0: weightless [m/s2]", Range::non_negative());
+  file.add("Ground", "surcharge", surcharge, "on the whole surface [Pa]", Range::non_negative());
+  file.add("Ground", "earth pressure at rest", earth_pressure_at_rest, "K0: horizontal over vertical stress at rest",
+           Range::non_negative());
+
+  declare_continuum(file, continuum);
+  file.add("Continuum", "damping", damping, "mass-proportional [1/s]", Range::non_negative());
+
+  file.add("Output", "step share", step_share, "of the stable time step", Range::strictly_between(0, 1));
+  file.add("Output", "samples", n_samples, "rows of history.csv", Range::between(1, 1000000));
+  file.add("Output", "pictures", n_pictures, "times at which the mesh is written for ParaView",
+           Range::between(1, 10000));
+  file.add("Output", "snapshot interval", snapshot_interval, "wall clock time between snapshots [s]",
+           Range::positive());
+}
+
+void FootingParameters::validate() const
+{
+  continuum.validate();
+  const auto fail = [](const auto &...parts)
+  {
+    std::ostringstream message;
+    (message << ... << parts);
+    throw dem::ConfigError(message.str());
+  };
+  if (ground_width < width)
+    fail(
+        "Ground/width is ", ground_width, " m beside a footing of ", width,
+        " m (Footing/width): the ground has to reach at least from the axis to half a width beyond the footing's edge");
+  if (ground_depth < element_size())
+    fail("Ground/depth is ", ground_depth, " m, less than an element of ", element_size(),
+         " m; choose more elements under half the footing or deeper ground");
+  if (settlement > 0.2 * width)
+    fail("Footing/settlement is ", settlement, " m: strains are small up to about a fifth of Footing/width, ",
+         0.2 * width, " m");
+}
+
+double FootingParameters::limit_pressure() const
+{
+  const BearingFactors n = bearing_factors(continuum.friction_angle, rough);
+  return continuum.cohesion * n.cohesion + surcharge * n.surcharge +
+         0.5 * continuum.density * gravity * width * n.weight;
+}
+
+} // namespace bergamo::driver

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "drivers/common/parameter_file.h"
+#include "fe_dealii/material/mohr_coulomb.h"
+
+namespace bergamo::driver
+{
+
+/// Everything that steers the footing. SI units; angles in degrees.
+struct FootingParameters
+{
+  FootingParameters();
+
+  double width = 1;         ///< B of the footing [m]
+  bool rough = true;        ///< no slip under the footing
+  double settlement = 0.03; ///< at the end [m]
+  double loading_time = 3;  ///< [s]
+  double ramp = 0.1;        ///< share of the time in which the footing speeds up
+
+  double ground_width = 3;          ///< from the axis of symmetry [m]
+  double ground_depth = 2;          ///< [m]
+  unsigned int elements_across = 8; ///< under half of the footing
+  unsigned int degree = 1;
+  double gravity = 0;                ///< downwards [m/s²]
+  double surcharge = 0;              ///< on the whole surface [Pa]
+  double earth_pressure_at_rest = 1; ///< K0
+
+  fe::MohrCoulombParameters continuum;
+  double damping = 5; ///< mass-proportional [1/s]
+
+  double step_share = 0.9; ///< of the stable time step
+  unsigned int n_samples = 200;
+  unsigned int n_pictures = 2;
+  double snapshot_interval = 30; ///< wall clock [s]
+
+  /// Binds every parameter to its name in the parameter file.
+  void declare(ParameterFile &file);
+
+  /// Throws ConfigError (or fe::ParameterError) for values that do not go together, before any work.
+  void validate() const;
+
+  /// Edge of an element [m]. The settlement falls from that of the last node held to nothing over the element beside
+  /// the footing, so that half of that element counts as covered (as in Itasca's FLAC).
+  double element_size() const { return 0.5 * width / (elements_across + 0.5); }
+  double limit_pressure() const; ///< in closed form, see bearing_factors(); cohesion, surcharge, weight [Pa]
+};
+
+} // namespace bergamo::driver

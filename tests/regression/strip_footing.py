@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""The driver strip_footing as a user runs it: limit loads against closed forms, threads, restart after a kill, bad
+input.
+
+Usage: strip_footing.py PROGRAM [TOPIC]
+"""
+
+import csv
+import json
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = Path(sys.argv.pop(1)).resolve()
+FOLDER = Path(__file__).resolve().parents[2] / "drivers" / "strip_footing"
+SMOKE = FOLDER / "smoke.prm"
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.tmp = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.tmp, True)
+
+    def command(self, output, settings=(), *options, file=SMOKE):
+        words = [word for setting in settings for word in ("--set", setting)]
+        return [str(PROGRAM), str(file), "--output", str(output), "--no-plots", "--quiet", *words, *options]
+
+    def run_driver(self, *arguments, **files):
+        return subprocess.run(self.command(*arguments, **files), capture_output=True, text=True, timeout=600)
+
+    def figures(self, name, settings=(), *options, file=SMOKE):
+        result = self.run_driver(self.tmp / name, settings, *options, file=file)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads((self.tmp / name / "summary.json").read_text())
+
+
+class Results(Case):
+    def test_cohesive(self):
+        """Prandtl's (2 + pi) c. Displacement elements give too much; with a mean dilatation they do not lock, and the
+        half element beside the edge counts: some percent are left at three elements under half the footing."""
+        figures = self.figures("cohesive")
+        self.assertAlmostEqual(figures["limit_pressure_Pa"], (2 + 3.141592653589793) * 10e3, delta=1e-6)
+        self.assertTrue(1.0 < figures["bearing_over_limit"] < 1.03, figures)
+        self.assertLess(figures["energy_residual"], 1e-11)  # rounding of some thousand steps
+        self.assertLess(figures["kinetic_over_elastic_energy"], 0.01)
+        self.assertLess(figures["time_step_s"], figures["stable_time_step_s"])
+        with open(self.tmp / "cohesive" / "history.csv", newline="") as file:
+            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        self.assertAlmostEqual(rows[-1]["settlement_m"], 0.03, delta=1e-4)
+        self.assertLess(rows[-1]["footing_pressure_Pa"] / rows[-6]["footing_pressure_Pa"], 1.01)  # a plateau
+        # Smooth, the limit is the same without weight; the edge is less sharp, so that the half element beside it, a
+        # seventh of the footing's half, is known to its half only.
+        smooth = self.figures("smooth", ["Footing/rough=false"])
+        self.assertAlmostEqual(smooth["bearing_over_limit"], 1, delta=1 / 14)
+
+    def test_frictional(self):
+        """c Nc + q Nq at 20 degrees, associated: above it, and nearer on the finer mesh."""
+        deviations = []
+        for elements in (2, 4):
+            figures = self.figures(f"frictional_{elements}",
+                                   [f"Ground/elements under half the footing={elements}", "Footing/loading time=3",
+                                    "Footing/settlement=0.05", "Ground/width=3.5", "Ground/depth=2"],
+                                   file=FOLDER / "frictional.prm")
+            self.assertLess(figures["start_out_of_balance"], 1e-12)
+            deviations.append(figures["bearing_over_limit"] - 1)
+        self.assertTrue(0 < deviations[1] < 0.14, deviations)
+        self.assertLess(deviations[1], 0.8 * deviations[0])
+
+    def test_ground_at_rest(self):
+        """With weight and K0 the ground starts as it lies, and the footing's pressure at first is the surcharge."""
+        figures = self.figures("rest", ["Ground/gravity=9.81", "Ground/surcharge=5e3", "Ground/earth pressure at rest=0.8",
+                                        "Footing/settlement=1e-9", "Footing/loading time=0.2"])
+        self.assertLess(figures["start_out_of_balance"], 1e-12)
+        self.assertAlmostEqual(figures["bearing_pressure_Pa"], 5e3, delta=1)
+
+    def test_threads(self):
+        one, two = self.figures("one", (), "--threads", "1"), self.figures("two", (), "--threads", "2")
+        self.assertEqual((self.tmp / "one" / "history.csv").read_text(), (self.tmp / "two" / "history.csv").read_text())
+        self.assertEqual(one["bearing_pressure_Pa"], two["bearing_pressure_Pa"])
+
+
+class Restart(Case):
+    def test_kill(self):
+        """Killed, and stopped by Ctrl-C: what it gives in the end is the same to the last bit."""
+        settings = ["Output/snapshot interval=0.05", "Ground/elements under half the footing=5"]
+        self.figures("whole", settings)
+        parts = self.tmp / "parts"
+        options = []
+        for send in (signal.SIGKILL, signal.SIGINT):
+            process = subprocess.Popen(self.command(parts, settings, *options), stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            before = (parts / "snapshot.h5").stat().st_mtime_ns if (parts / "snapshot.h5").exists() else 0
+            for _ in range(3000):
+                snapshot = parts / "snapshot.h5"
+                if process.poll() is not None or (snapshot.exists() and snapshot.stat().st_mtime_ns > before):
+                    break
+                time.sleep(0.005)
+            self.assertIsNone(process.poll(), "the run ended before it could be stopped")
+            process.send_signal(send)
+            process.wait(timeout=60)
+            options = ["--restart"]
+        result = self.run_driver(parts, settings, "--restart")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((parts / "history.csv").read_text(), (self.tmp / "whole" / "history.csv").read_text())
+        summaries = [json.loads((self.tmp / name / "summary.json").read_text()) for name in ("whole", "parts")]
+        for name in ("bearing_pressure_Pa", "energy_residual"):
+            self.assertEqual(summaries[0][name], summaries[1][name])
+
+
+class BadInput(Case):
+    def assert_refused(self, settings, *words, status=2):
+        out = self.tmp / "refused"
+        result = self.run_driver(out, settings)
+        self.assertEqual(result.returncode, status, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
+        self.assertFalse(out.exists())  # nothing is written before the work
+
+    def test_parameters(self):
+        self.assert_refused(["Ground/width=0.8"], "Ground/width is 0.8", "Footing/width")
+        self.assert_refused(["Footing/settlement=0.5"], "Footing/settlement is 0.5")
+        self.assert_refused(["Continuum/cohesion=0"], "cohesion", "no strength")
+        self.assert_refused(["Output/step share=1.5"], "step share", "1.5")
+        self.assert_refused(["Ground/element degree=3"], "element degree", "3")
+
+    def test_ground_that_cannot_rest(self):
+        """K0 far from what the ground bears: refused with the place, before a file is written."""
+        self.assert_refused(["Ground/gravity=9.81", "Ground/earth pressure at rest=0", "Continuum/cohesion=1e3"],
+                            "initial stress at", "beyond the yield surface")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[1:], verbosity=2)
