@@ -4,6 +4,7 @@
 #include "drivers/common/number_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -81,6 +82,23 @@ double chosen_cohesion(const FitParameters &parameters, const std::optional<Tang
   return tangent->cohesion;
 }
 
+/// Line of least squares through the logarithms; nothing for one pressure alone, or a modulus that is not positive.
+std::optional<PowerLaw> power_law(const std::vector<Sample> &samples, const Fits &fits, const FitParameters &parameters)
+{
+  std::vector<double> pressures, moduli; // logarithms
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (takes(parameters.young_pressures, samples[i].confining_pressure) && fits[i].elastic.young_modulus > 0)
+    {
+      pressures.push_back(std::log(samples[i].confining_pressure / parameters.reference_pressure));
+      moduli.push_back(std::log(fits[i].elastic.young_modulus));
+    }
+  const auto [least, most] = std::minmax_element(pressures.begin(), pressures.end());
+  if (pressures.empty() || *most - *least < 1e-6)
+    return std::nullopt;
+  const Line line = fit_line(pressures, moduli);
+  return PowerLaw{std::exp(line.intercept), parameters.reference_pressure, line.slope};
+}
+
 /// Moves a fitted value into the material's range, with a word.
 double within(const char *name, const double value, const double lowest, const double highest,
               std::vector<std::string> &warnings)
@@ -92,7 +110,7 @@ double within(const char *name, const double value, const double lowest, const d
   return allowed;
 }
 
-fe::MohrCoulombParameters continuum_of(const EnsembleFit &fit, const double grain_density,
+fe::MohrCoulombParameters continuum_of(const EnsembleFit &fit, const FitParameters &parameters,
                                        std::vector<std::string> &warnings)
 {
   const FitStatistics &all = fit.all;
@@ -106,12 +124,21 @@ fe::MohrCoulombParameters continuum_of(const EnsembleFit &fit, const double grai
                       " Pa alone is more than the samples' strength; choose less");
   fe::MohrCoulombParameters continuum;
   continuum.young_modulus = all.young_modulus.mean;
+  if (parameters.stiffness_law == StiffnessLaw::power)
+  {
+    if (!fit.stiffness)
+      throw ConfigError("Elasticity/stiffness is power, but these samples have a single confining pressure; take "
+                        "samples under two or more, or set it to constant");
+    continuum.young_modulus = fit.stiffness->modulus;
+    continuum.reference_pressure = fit.stiffness->reference_pressure;
+    continuum.stiffness_exponent = within("the stiffness exponent", fit.stiffness->exponent, 0, 1, warnings);
+  }
   continuum.poisson_ratio = within("Poisson's ratio", all.poisson_ratio.mean, 0, 0.49, warnings);
   continuum.friction_angle = all.friction_angle.mean;
   continuum.dilation_angle =
       within("the dilation angle", all.dilation_angle.mean, 0, all.friction_angle.mean, warnings);
   continuum.cohesion = fit.cohesion;
-  continuum.density = grain_density * all.initial_solid_fraction.mean;
+  continuum.density = parameters.grain_density * all.initial_solid_fraction.mean;
   if (!(continuum.density > 0))
     throw ConfigError("the initial solid fraction is " + short_text(all.initial_solid_fraction.mean) +
                       "; check the column solid_fraction of the histories");
@@ -154,13 +181,15 @@ EnsembleFit fit_ensemble(const std::vector<Sample> &samples, const FitParameters
   for (const double pressure : pressures)
     fit.pressures.push_back({pressure, statistics_of(under({pressure}, samples, fit.samples), fit.cohesion)});
 
+  fit.stiffness = power_law(samples, fit.samples, parameters);
+
   const double window = parameters.windows.elastic_strain;
   fit.windows = {
       window_study(young, 0.5 * window, [](const auto &sample) { return sample.elastic_half; }),
       window_study(young, window, [](const auto &sample) { return std::optional(sample.elastic); }),
       window_study(young, 2 * window, [](const auto &sample) { return sample.elastic_double; }),
   };
-  fit.continuum = continuum_of(fit, parameters.grain_density, fit.warnings);
+  fit.continuum = continuum_of(fit, parameters, fit.warnings);
   return fit;
 }
 

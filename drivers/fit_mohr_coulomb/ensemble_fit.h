@@ -43,6 +43,14 @@ struct WindowStudy
   Statistic poisson_ratio;
 };
 
+/// E = E_r (p / p_r)^m over the confining pressures.
+struct PowerLaw
+{
+  double modulus;            ///< E_r [Pa]
+  double reference_pressure; ///< p_r [Pa]
+  double exponent;           ///< m
+};
+
 struct EnsembleFit
 {
   std::vector<SampleFit> samples; ///< in the ensemble's order
@@ -50,6 +58,7 @@ struct EnsembleFit
   FitStatistics all;              ///< its Young's modulus over the pressures that are to give it
   std::vector<PressureFit> pressures;
   std::vector<WindowStudy> windows;      ///< half, whole and twice the window
+  std::optional<PowerLaw> stiffness;     ///< where there are two pressures or more
   std::optional<Tangent> common_tangent; ///< of all circles
   fe::MohrCoulombParameters continuum;   ///< the means, moved into the material's range where they lie outside
   std::vector<std::string> warnings;

@@ -24,6 +24,12 @@ void FitParameters::declare(ParameterFile &file)
            "Young's modulus is the mean over samples under these confining pressures [Pa]; empty: all",
            Range::positive());
 
+  file.add("Elasticity", "stiffness", stiffness_law,
+           "constant: the mean Young's modulus at any pressure; power: it grows with the confining pressure, E = E_r "
+           "(p/p_r)^m, by least squares of the logarithms",
+           {{"constant", StiffnessLaw::constant}, {"power", StiffnessLaw::power}});
+  file.add("Elasticity", "reference pressure", reference_pressure, "p_r of the power law [Pa]", Range::positive());
+
   file.add("Strength", "averaged strain", windows.peak_average,
            "width in axial strain over which stresses are averaged before the largest is sought; 0: none",
            {.lowest = 0, .highest = 1, .highest_included = false});

@@ -23,6 +23,12 @@ enum class CohesionSource
   common_tangent
 };
 
+enum class StiffnessLaw
+{
+  constant, ///< the mean modulus at any pressure
+  power     ///< E = E_r (p / p_r)^m
+};
+
 /// Everything that steers the fit. SI units.
 struct FitParameters
 {
@@ -30,6 +36,8 @@ struct FitParameters
   SampleChoice choice;
   FitWindows windows;
   std::vector<double> young_pressures; ///< those whose samples give Young's modulus [Pa]; empty: all
+  StiffnessLaw stiffness_law = StiffnessLaw::constant;
+  double reference_pressure = 100e3; ///< p_r of the power law [Pa]
   CohesionSource cohesion_source = CohesionSource::given;
   double cohesion = 15;         ///< [Pa], where it is given
   double grain_density = 2650.; ///< [kg/m3]

@@ -67,6 +67,8 @@ Json json_of(const fe::MohrCoulombParameters &continuum)
           {"friction_angle_deg", continuum.friction_angle},
           {"dilation_angle_deg", continuum.dilation_angle},
           {"cohesion_Pa", continuum.cohesion},
+          {"reference_pressure_Pa", continuum.reference_pressure},
+          {"stiffness_exponent", continuum.stiffness_exponent},
           {"density_kg_m3", continuum.density}};
 }
 
@@ -99,6 +101,11 @@ std::string fit_json(const Ensemble &ensemble, const EnsembleFit &fit, const Fit
 {
   Json object = json_of(fit.all);
   object["cohesion_Pa"] = fit.cohesion;
+  object["stiffness_power_law"] = nullptr;
+  if (fit.stiffness)
+    object["stiffness_power_law"] = {{"young_modulus_Pa", fit.stiffness->modulus},
+                                     {"reference_pressure_Pa", fit.stiffness->reference_pressure},
+                                     {"exponent", fit.stiffness->exponent}};
   object["common_tangent"] = nullptr;
   if (fit.common_tangent)
     object["common_tangent"] = {{"friction_angle_deg", fit.common_tangent->friction_angle},

@@ -96,6 +96,37 @@ TEST_CASE("chosen pressures alone give Young's modulus")
   CHECK_THROWS_WITH(fit_ensemble(scattered(), parameters), Contains("Elasticity/pressures"));
 }
 
+TEST_CASE("a modulus that grows with the pressure gives a power law, and the continuum that stiffness")
+{
+  // Geometric means sqrt(60 80) MPa at 50 kPa and twice that at 100 kPa: an exponent of 1.
+  FitParameters parameters;
+  parameters.reference_pressure = 200e3;
+  EnsembleFit fit = fit_ensemble(scattered(), parameters);
+  REQUIRE(fit.stiffness);
+  CHECK(fit.stiffness->exponent == Approx(1).epsilon(1e-8));
+  CHECK(fit.stiffness->modulus == Approx(4 * std::sqrt(60e6 * 80e6)).epsilon(1e-8));
+  CHECK(fit.continuum.reference_pressure == 0);
+  CHECK(fit.continuum.young_modulus == Approx(105e6).epsilon(1e-8));
+
+  // Tests made by such a material give it back: its modulus is that of the pressure at the start of each small step.
+  auto known = synthetic::known();
+  known.reference_pressure = 100e3;
+  known.stiffness_exponent = 0.4;
+  std::vector<Sample> samples;
+  for (const double pressure : {25e3, 50e3, 100e3, 200e3})
+    samples.push_back(synthetic::sample(samples.size() + 1, pressure, synthetic::curve(pressure, known)));
+  parameters.stiffness_law = StiffnessLaw::power;
+  parameters.reference_pressure = 100e3;
+  parameters.windows.elastic_strain = 2.5e-5; // the pressure hardly rises
+  fit = fit_ensemble(samples, parameters);
+  CHECK(fit.continuum.reference_pressure == 100e3);
+  CHECK(fit.continuum.stiffness_exponent == Approx(0.4).margin(0.01));
+  CHECK(fit.continuum.young_modulus == Approx(80e6).epsilon(0.01));
+
+  samples.resize(1);
+  CHECK_THROWS_WITH(fit_ensemble(samples, parameters), Contains("Elasticity/stiffness") && Contains("single"));
+}
+
 TEST_CASE("the cohesion is given or the common tangent's")
 {
   auto cohesive = synthetic::known();
