@@ -86,8 +86,9 @@ struct Gradients
   {
     const Tensor3<Points> minors = cofactor(f);
     const Points ratio = determinant(f, minors);
-    stress = law.point_stress(f, minors, ratio);
-    energy += volume * law.point_energy(f, ratio);
+    const PointResponse<Points> response = law.respond(f, minors, ratio);
+    stress = response.stress;
+    energy += volume * response.energy;
     asm volatile("" : : "m"(stress), "m"(energy)); // somebody reads them
   }
 

@@ -58,8 +58,9 @@ Response internal_force(const Law &law, const Element &element, const Dilatation
     const Tensor3<Points> f = deformation_gradient(element, pack, u);
     minors[pack] = cofactor(f);
     ratio[pack] = determinant(f, minors[pack]);
-    stress[pack] = law.point_stress(f, minors[pack], ratio[pack]);
-    energy += element.volume[pack] * law.point_energy(f, ratio[pack]);
+    const PointResponse<Points> response_of_law = law.respond(f, minors[pack], ratio[pack]);
+    stress[pack] = response_of_law.stress;
+    energy += element.volume[pack] * response_of_law.energy;
     volume += sum(element.volume[pack]);
     present_volume += sum(element.volume[pack] * ratio[pack]);
     response.smallest_ratio = std::min(response.smallest_ratio, smallest(ratio[pack]));

@@ -71,7 +71,7 @@ ElementState FiniteStrainSolid<Law, n_nodes>::state_of(const std::size_t element
   {
     const Tensor3<Points> f = finite_strain::deformation_gradient(geometry, pack, u), minors = cofactor(f);
     const Points ratio = determinant(f, minors);
-    const Tensor3<Points> first_piola = law_.point_stress(f, minors, ratio);
+    const Tensor3<Points> first_piola = law_.respond(f, minors, ratio).stress;
     const Points pressure = dilatation == finite_strain::Dilatation::mean
                                 ? Points{} + law_.volumetric().pressure(present_volume / volume(element))
                                 : law_.volumetric().pressure(ratio);

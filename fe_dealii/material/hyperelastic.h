@@ -6,8 +6,7 @@
 /// Hyperelastic laws: energies of the deformation gradient F, of large strain and rotation.
 ///
 /// Each law is a class with
-///   Tensor3<Real> point_stress(F, cof F, J)   first Piola-Kirchhoff stress of the part W(F) [Pa]
-///   Real point_energy(F, J)                   W(F) per reference volume [J/m³]
+///   PointResponse<Real> respond(F, cof F, J)  to the part W(F); both figures share most of their terms
 ///   volumetric()                              the part U(J) that an element may take at its mean volume ratio
 ///   shear_modulus(), bulk_modulus()           at small strain [Pa]; density() of the reference state [kg/m³]
 /// for Real a double or a pack of them. The whole energy is W(F) + U(J), the stress that of W plus U'(J) cof F. Where U
@@ -35,13 +34,21 @@ struct VolumetricEnergy
   }
 };
 
+/// What a deformation gradient gives at a point.
+template <class Real>
+struct PointResponse
+{
+  Tensor3<Real> stress; ///< first Piola-Kirchhoff [Pa]
+  Real energy;          ///< per reference volume [J/m³]
+};
+
 /// Stress of a law at one point alone, or at several points without any mean: first Piola-Kirchhoff [Pa].
 template <class Law, class Real>
 Tensor3<Real> first_piola(const Law &law, const Tensor3<Real> &f)
 {
   const Tensor3<Real> minors = cofactor(f);
   const Real ratio = determinant(f, minors);
-  Tensor3<Real> stress = law.point_stress(f, minors, ratio);
+  Tensor3<Real> stress = law.respond(f, minors, ratio).stress;
   const Real pressure = law.volumetric().pressure(ratio);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
@@ -53,8 +60,9 @@ Tensor3<Real> first_piola(const Law &law, const Tensor3<Real> &f)
 template <class Law, class Real>
 Real energy_density(const Law &law, const Tensor3<Real> &f)
 {
-  const Real ratio = determinant(f, cofactor(f));
-  return law.point_energy(f, ratio) + law.volumetric().energy(ratio);
+  const Tensor3<Real> minors = cofactor(f);
+  const Real ratio = determinant(f, minors);
+  return law.respond(f, minors, ratio).energy + law.volumetric().energy(ratio);
 }
 
 } // namespace bergamo::fe

@@ -29,7 +29,7 @@ public:
   explicit MooneyRivlin(const MooneyRivlinParameters &parameters) : p(parameters) { p.validate(); }
 
   template <class Real>
-  Tensor3<Real> point_stress(const Tensor3<Real> &f, const Tensor3<Real> &minors, const Real &ratio) const
+  PointResponse<Real> respond(const Tensor3<Real> &f, const Tensor3<Real> &minors, const Real &ratio) const
   {
     const Invariants<Real> v = invariants(f, ratio);
     // dĪ1/dF = 2 J^-2/3 F − 2/3 Ī1 F^-T,  dĪ2/dF = 2 J^-4/3 F (I1 1 − C) − 4/3 Ī2 F^-T
@@ -43,14 +43,7 @@ public:
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         stress[i][j] -= along * minors[i][j];
-    return stress;
-  }
-
-  template <class Real>
-  Real point_energy(const Tensor3<Real> &f, const Real &ratio) const
-  {
-    const Invariants<Real> v = invariants(f, ratio);
-    return 0.5 * (first() * (v.first - 3.) + second() * (v.second - 3.));
+    return {stress, 0.5 * (first() * (v.first - 3.) + second() * (v.second - 3.))};
   }
 
   /// λ ∂W/∂λ and the share of one direction in W, incompressible, at x = λ².

@@ -20,21 +20,16 @@ public:
   }
 
   template <class Real>
-  Tensor3<Real> point_stress(const Tensor3<Real> &f, const Tensor3<Real> &minors, const Real &ratio) const
+  PointResponse<Real> respond(const Tensor3<Real> &f, const Tensor3<Real> &minors, const Real &ratio) const
   {
-    Tensor3<Real> stress;
+    PointResponse<Real> response;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        stress[i][j] = shear_modulus() * (f[i][j] - minors[i][j] / ratio);
-    return stress;
-  }
-
-  template <class Real>
-  Real point_energy(const Tensor3<Real> &f, const Real &ratio) const
-  {
+        response.stress[i][j] = shear_modulus() * (f[i][j] - minors[i][j] / ratio);
     Real c[6];
     right_cauchy_green(f, c);
-    return (0.5 * shear_modulus()) * (c[0] + c[1] + c[2] - 3. - 2. * lanes::logarithm(ratio));
+    response.energy = (0.5 * shear_modulus()) * (c[0] + c[1] + c[2] - 3. - 2. * lanes::logarithm(ratio));
+    return response;
   }
 
   /// λ ∂W/∂λ and the share of one direction in W, incompressible, at x = λ².

@@ -38,13 +38,17 @@ public:
   explicit Ogden(const OgdenParameters &parameters) : p(parameters) { p.validate(); }
 
   template <class Real>
-  Tensor3<Real> point_stress(const Tensor3<Real> &f, const Tensor3<Real> &, const Real &ratio) const
+  PointResponse<Real> respond(const Tensor3<Real> &f, const Tensor3<Real> &, const Real &ratio) const
   {
     const PrincipalFrame<Real> stretch = principal_squares(f);
     const Real scale = lanes::power(ratio, -2. / 3.);
-    Real slope[3];
+    Real slope[3], energy = 0. * ratio;
     for (int k = 0; k < 3; ++k)
-      slope[k] = principal_slope(Real(scale * stretch.value[k]));
+    {
+      const Principal<Real> principal = principal_response(Real(scale * stretch.value[k]));
+      slope[k] = principal.slope;
+      energy += principal.energy;
+    }
     // S = Σ_k (∂W/∂ln λ_k)/λ_k² N_k ⊗ N_k, and at constant volume the logarithmic derivatives have no trace.
     Real second_piola[6];
     constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
@@ -56,29 +60,19 @@ public:
       for (int c = 0; c < 6; ++c)
         second_piola[c] += value * stretch.direction[k][row[c]] * stretch.direction[k][column[c]];
     }
-    return times_symmetric(f, second_piola);
-  }
-
-  template <class Real>
-  Real point_energy(const Tensor3<Real> &f, const Real &ratio) const
-  {
-    const PrincipalFrame<Real> stretch = principal_squares(f);
-    const Real scale = lanes::power(ratio, -2. / 3.);
-    return principal_energy(Real(scale * stretch.value[0])) + principal_energy(Real(scale * stretch.value[1])) +
-           principal_energy(Real(scale * stretch.value[2]));
+    return {times_symmetric(f, second_piola), energy};
   }
 
   /// λ ∂W/∂λ and the share of one direction in W, at x = λ̄².
   template <class Real>
   Real principal_slope(const Real &x) const
   {
-    return sum_of_terms(x, [](const double modulus, double, const Real &power) { return Real(modulus * power); });
+    return principal_response(x).slope;
   }
   template <class Real>
   Real principal_energy(const Real &x) const
   {
-    return sum_of_terms(x, [](const double modulus, const double exponent, const Real &power)
-                        { return Real((modulus / exponent) * (power - 1.)); });
+    return principal_response(x).energy;
   }
 
   VolumetricEnergy volumetric() const { return {p.bulk_modulus}; }
@@ -88,14 +82,24 @@ public:
   const OgdenParameters &parameters() const { return p; }
 
 private:
-  template <class Real, class Term>
-  Real sum_of_terms(const Real &square, const Term &term) const
+  template <class Real>
+  struct Principal
+  {
+    Real slope, energy;
+  };
+
+  template <class Real>
+  Principal<Real> principal_response(const Real &square) const
   {
     const Real log_stretch = 0.5 * lanes::logarithm(square);
-    Real sum = 0. * square;
+    Principal<Real> sum{0. * square, 0. * square};
     for (int n = 0; n < 3; ++n)
       if (p.modulus[n] != 0)
-        sum += term(p.modulus[n], p.exponent[n], Real(lanes::exponential(Real(p.exponent[n] * log_stretch))));
+      {
+        const Real power = lanes::exponential(Real(p.exponent[n] * log_stretch));
+        sum.slope += p.modulus[n] * power;
+        sum.energy += (p.modulus[n] / p.exponent[n]) * (power - 1.);
+      }
     return sum;
   }
 
