@@ -6,6 +6,7 @@
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
+#include "tests/threads.h"
 #include "tests/verification/fe_static.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -158,6 +159,7 @@ TEST_CASE("Cylinder under pressure, elastic: Lame's solution at second order, ne
 
 TEST_CASE("Cylinder under pressure, elastic-plastic: Hill's solution, and what stays when the pressure is gone", "[fe]")
 {
+  const Threads one(1);
   constexpr double nu = 0.3, cohesion = 1e4;
   const Hill hill{nu, cohesion, 1.4};
   const Material soil = MohrCoulomb({.young_modulus = young,

@@ -5,6 +5,7 @@
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
+#include "tests/threads.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -98,6 +99,7 @@ private:
 
 TEST_CASE("A bar that hits a wall: pressure, duration and rebound to rounding where a step is an element", "[fe]")
 {
+  const Threads one(1);
   // At c dt = h the leapfrog is exact in the nodes (fe_waves.cc). The wall's nodes stop at once and lose their energy.
   constexpr int n = 50;
   constexpr double length = 1, area = 100, v = 0.2;
@@ -130,6 +132,7 @@ TEST_CASE("A bar that hits a wall: pressure, duration and rebound to rounding wh
 
 TEST_CASE("A slender bar with free sides is turned back by a wall in 2 L/c with c = sqrt(E/rho)", "[fe]")
 {
+  const Threads one(1);
   constexpr double length = 1, side = 0.1, v = 0.2;
   ExplicitBody body = block({{0, 0, 0}, {side, side, length}, {2, 2, 40}}, 0.3);
   const auto wall = body.prescribe_velocity(4u, 2);
@@ -160,6 +163,7 @@ TEST_CASE("A slender bar with free sides is turned back by a wall in 2 L/c with 
 
 TEST_CASE("A bar thrown against a floor that only pushes leaves it after 2 L/c with all of its energy", "[fe]")
 {
+  const Threads one(1);
   // Without lateral strain the bar has no vibration left. The discrete wave's front is h n^(1/3) wide after n elements
   // (Airy's function), which blurs duration and speed by n^(-2/3).
   constexpr int n = 200;
@@ -192,6 +196,7 @@ TEST_CASE("A bar thrown against a floor that only pushes leaves it after 2 L/c w
 
 TEST_CASE("A block dropped on a soft floor rises to where it came from, but for what it keeps as vibration", "[fe]")
 {
+  const Threads one(1);
   // The floor's force is half a sine of Ω = sqrt(k/m). It leaves in mode j of a free bar, ω_j = jπc/L, at most the
   // share 8 (Ω/ω_j)⁴ of the energy (Timoshenko, Vibration Problems in Engineering, response to half a sine); Σ 1/j⁴ =
   // π⁴/90. In a step at either end of the contact, the leapfrog may miss the floor's share (Ω dt)²/2 of the energy.

@@ -6,6 +6,7 @@
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
+#include "tests/threads.h"
 #include "tests/verification/fe_static.h"
 
 #include <deal.II/base/function.h>
@@ -156,6 +157,7 @@ TEST_CASE("A manufactured displacement on distorted meshes: orders 2 and 1 with 
 TEST_CASE("A manufactured motion with damping, gravity, forces and a moving face: second order in the time step",
           "[fe]")
 {
+  const Threads one(1);
   // u = U(X) sin ωt of the nodes needs f = m ü + α m u̇ + f_int(u) − m g: then all that remains is the error in time.
   // The internal forces are those of a second body that is put there, at large strain as well.
   constexpr ElasticParameters rubber{.young_modulus = 1e6, .poisson_ratio = 0.4, .density = 1100};

@@ -6,6 +6,7 @@
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
+#include "tests/threads.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -104,6 +105,7 @@ double foretold(const double second, const double fourth)
 TEST_CASE("A pulse between held sides runs with sqrt(M/rho): its error is that foretold, of order 2 and 4 in the mesh",
           "[fe]")
 {
+  const Threads one(1);
   // A wave runs ahead by (k c dt)²/24 because of the time step. It lags by (k h)²/24 in a lumped bar of 8 nodes, and by
   // (k h)⁴/2880 in one of 27 with Simpson's masses: there Bloch's waves have, with L = (ω h/c)² and d = 1 − cos kh,
   // L² − (24 − 2 d) L + 48 d = 0, so L = (kh)² (1 − (kh)⁴/1440 + ...).
@@ -139,6 +141,7 @@ TEST_CASE("A pulse between held sides runs with sqrt(M/rho): its error is that f
 TEST_CASE("A pulse that fills one element a step is d'Alembert's to rounding, reflections with their signs included",
           "[fe]")
 {
+  const Threads one(1);
   // At c dt = h the leapfrog on a lumped bar is u(x, t + dt) = u(x − h, t) + u(x + h, t) − u(x, t − dt), which every
   // f(x − ct) + g(x + ct) fulfils; a free end is a mirror, a fixed one a mirror with the sign changed.
   constexpr double length = 2, begin = 0.75;
@@ -193,6 +196,7 @@ TEST_CASE("A pulse that fills one element a step is d'Alembert's to rounding, re
 
 TEST_CASE("A pulse in a slender free bar runs with sqrt(E/rho) and spreads by the inertia of its sides", "[fe]")
 {
+  const Threads one(1);
   // Love: the bar's speed is sqrt(E/ρ) (1 − ν² K² k²/2), K² = b²/6 the polar radius of gyration of the square section.
   // One layer of 27 nodes has that inertia exactly.
   constexpr double side = 0.03;
