@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+namespace dealii
+{
+template <int dim, int spacedim>
+class Triangulation;
+}
+
+namespace bergamo::fe
+{
+
+/// Fills the empty `triangulation` with the hexahedra of a file, as written by Gmsh (.msh, text, versions 1, 2, 4.0 and
+/// 4.1) or AVS UCD (.inp, .ucd). Faces that the file lists keep their number as boundary id: physical surfaces of Gmsh,
+/// materials of UCD's quadrilaterals; all others have the id 0. Curved cells become hexahedra with straight edges.
+/// @param unit of the file's coordinates [m], e.g. 0.001 for a mesh drawn in millimetres
+/// Throws ParameterError, with the file's name, for a file that is missing, of another format or not to be understood,
+/// a unit that is not positive, or a triangulation that is not empty. A sound file may still hold a bad mesh: see
+/// check_mesh().
+void read_mesh(const std::filesystem::path &path, dealii::Triangulation<3, 3> &triangulation, double unit = 1);
+
+} // namespace bergamo::fe
