@@ -27,8 +27,9 @@ FLOORS = {
         "error": 1, "body_energy": 1,
         "material": 2, "mesh": 2,
         "element": 3, "boundary": 3,
-        "explicit_body": 4,
-        "stable_step": 5, "output": 5, "equilibrium": 5, "conditions": 5,
+        "moving_body": 4,
+        "explicit_body": 5, "membrane_body": 5,
+        "stable_step": 6, "output": 6, "equilibrium": 6, "conditions": 6,
     },
 }
 

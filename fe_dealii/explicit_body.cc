@@ -1,14 +1,13 @@
 #include "fe_dealii/explicit_body.h"
 
 #include "fe_dealii/boundary/surface.h"
+#include "fe_dealii/element/cell_nodes.h"
 #include "fe_dealii/element/solid_elements.h"
 #include "fe_dealii/error.h"
 
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
@@ -20,12 +19,6 @@ namespace bergamo::fe
 namespace
 {
 
-// Sums over dofs are taken in blocks of this many nodes, then over the blocks in order: the same on any thread count.
-constexpr std::size_t block_nodes = 512;
-// Below this, waking the threads costs more than they save.
-constexpr std::size_t few_elements = 256;
-constexpr std::size_t block_elements = 32; // in one virtual call
-
 template <class... Parts>
 [[noreturn]] void reject(const Parts &...parts)
 {
@@ -34,27 +27,32 @@ template <class... Parts>
   throw ParameterError(message.str());
 }
 
-std::span<double> doubles_of(dealii::Vector<double> &vector)
-{
-  return {vector.begin(), vector.size()};
-}
-
 } // namespace
 
 void ExplicitBodyParameters::validate() const
 {
   if (degree != 1 && degree != 2)
     reject("continuum: degree = ", degree, " of the elements is not allowed; choose 1 (8 nodes) or 2 (27 nodes)");
-  for (int i = 0; i < 3; ++i)
-    if (!std::isfinite(gravity[i]))
-      reject("continuum: gravity component ", i, " = ", gravity[i], " m/s^2 is not finite; give a number");
-  if (!(damping >= 0) || !std::isfinite(damping))
-    reject("continuum: damping = ", damping, " 1/s is not allowed; give zero or a positive number");
+  MassForces{gravity, damping}.validate("continuum");
+  if (!(wanted_time_step >= 0) || !std::isfinite(wanted_time_step))
+    reject("continuum: wanted_time_step = ", wanted_time_step,
+           " s is not allowed; give a positive time, or zero for no mass scaling");
 }
 
 struct ExplicitBody::Mesh
 {
-  explicit Mesh(const unsigned int degree) : element(dealii::FE_Q<3>(degree), 3), dof_handler(triangulation) {}
+  Mesh(const dealii::Triangulation<3, 3> &mesh, const unsigned int degree)
+      : element(dealii::FE_Q<3>(degree), 3), dof_handler(triangulation)
+  {
+    if (mesh.n_active_cells() == 0)
+      reject("continuum: the mesh has no cells; fill the triangulation first");
+    if (!mesh.all_reference_cells_are_hyper_cube())
+      reject("continuum: the mesh has cells that are no hexahedra; only hexahedra are supported");
+    if (mesh.has_hanging_nodes())
+      reject("continuum: the mesh has hanging nodes; refine it uniformly");
+    triangulation.copy_triangulation(mesh);
+    dof_handler.distribute_dofs(element);
+  }
 
   dealii::Triangulation<3> triangulation;
   dealii::FESystem<3> element;
@@ -62,43 +60,16 @@ struct ExplicitBody::Mesh
 };
 
 ExplicitBody::ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const ExplicitBodyParameters &parameters)
-    : mesh_(std::make_unique<Mesh>(parameters.degree)), parameters_((parameters.validate(), parameters))
+    : ExplicitBody(std::make_unique<Mesh>(mesh, (parameters.validate(), parameters.degree)), parameters)
 {
-  if (mesh.n_active_cells() == 0)
-    reject("continuum: the mesh has no cells; fill the triangulation first");
-  if (!mesh.all_reference_cells_are_hyper_cube())
-    reject("continuum: the mesh has cells that are no hexahedra; only hexahedra are supported");
-  if (mesh.has_hanging_nodes())
-    reject("continuum: the mesh has hanging nodes; refine it uniformly");
-  mesh_->triangulation.copy_triangulation(mesh);
-  mesh_->dof_handler.distribute_dofs(mesh_->element);
+}
 
-  elements_ = make_solid_elements(mesh_->dof_handler, parameters.material, parameters.initial_stress);
-
-  const std::size_t n_dofs = mesh_->dof_handler.n_dofs();
-  std::vector<dealii::Point<3>> support(n_dofs);
-  dealii::DoFTools::map_dofs_to_support_points(dealii::MappingQ1<3>(), mesh_->dof_handler, support);
-  node_position_.resize(n_dofs / 3);
-  for (std::size_t node = 0; node < n_nodes(); ++node)
-    for (int i = 0; i < 3; ++i)
-      node_position_[node][i] = support[3 * node][i];
-
-  const std::span<const unsigned int> nodes = elements_->nodes();
-  slot_head_.assign(n_nodes() + 1, 0);
-  for (const unsigned int node : nodes)
-    ++slot_head_[node + 1];
-  for (std::size_t node = 0; node < n_nodes(); ++node)
-    slot_head_[node + 1] += slot_head_[node];
-  slot_.resize(nodes.size());
-  auto next = slot_head_;
-  for (std::size_t place = 0; place < nodes.size(); ++place)
-    slot_[next[nodes[place]]++] = place;
-
-  for (dealii::Vector<double> *vector : {&displacement_, &velocity_, &internal_force_, &external_force_,
-                                         &reaction_force_, &mass_, &displacement_of_stress_})
-    vector->reinit(n_dofs);
-  constraint_of_dof_.assign(n_dofs, -1);
-  gather_mass();
+ExplicitBody::ExplicitBody(std::unique_ptr<Mesh> mesh, const ExplicitBodyParameters &p)
+    : MovingBody("continuum", node_positions(mesh->dof_handler),
+                 make_solid_elements(mesh->dof_handler, p.material, p.initial_stress), {p.gravity, p.damping},
+                 p.wanted_time_step),
+      mesh_(std::move(mesh)), material_(p.material)
+{
 }
 
 ExplicitBody::ExplicitBody(ExplicitBody &&) noexcept = default;
@@ -107,19 +78,6 @@ ExplicitBody::~ExplicitBody() = default;
 const dealii::DoFHandler<3, 3> &ExplicitBody::dof_handler() const
 {
   return mesh_->dof_handler;
-}
-
-void ExplicitBody::gather_mass()
-{
-  mass_ = 0;
-  std::vector<double> mass(elements_->nodes_per_element());
-  for (std::size_t e = 0; e < n_elements(); ++e)
-  {
-    elements_->lumped_mass(e, mass.data());
-    for (std::size_t v = 0; v < mass.size(); ++v)
-      for (int i = 0; i < 3; ++i)
-        mass_[3 * std::size_t(element_nodes(e)[v]) + i] += mass[v];
-  }
 }
 
 void ExplicitBody::set_share(const std::span<const double> nodal_weight)
@@ -147,188 +105,8 @@ void ExplicitBody::set_share(const std::span<const double> nodal_weight)
   std::vector<double> share(n_nodes());
   for (std::size_t node = 0; node < n_nodes(); ++node)
     share[node] = 1 - nodal_weight[node];
-  elements_->set_share(share);
+  elements().set_share(share);
   gather_mass();
-}
-
-void ExplicitBody::compute_internal_force()
-{
-  const std::size_t n_elements = this->n_elements(), n_nodes = this->n_nodes();
-  const std::size_t n_blocks = (n_elements + block_elements - 1) / block_elements;
-  const double *const now = displacement_.begin();
-  double *const before = displacement_of_stress_.begin();
-  const std::span<const double> element_force = elements_->forces();
-  std::size_t inverted = n_elements; // the first one
-#pragma omp parallel if (n_elements >= few_elements)
-  {
-#pragma omp for schedule(static) reduction(min : inverted)
-    for (std::size_t block = 0; block < n_blocks; ++block)
-    {
-      const std::size_t begin = block * block_elements, end = std::min(n_elements, begin + block_elements);
-      inverted = std::min(inverted, elements_->compute_forces(begin, end, now, before).value_or(n_elements));
-    }
-    // Each node sums its elements in their order: no race, and the same bits whatever the threads.
-#pragma omp for schedule(static)
-    for (std::size_t node = 0; node < n_nodes; ++node)
-    {
-      double force[3] = {0, 0, 0};
-      for (std::size_t k = slot_head_[node]; k < slot_head_[node + 1]; ++k)
-        for (int i = 0; i < 3; ++i)
-          force[i] += element_force[3 * std::size_t(slot_[k]) + i];
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        internal_force_[3 * node + i] = force[i];
-        before[3 * node + i] = now[3 * node + i];
-      }
-    }
-  }
-  if (inverted < n_elements)
-    report_inversion(inverted);
-}
-
-void ExplicitBody::report_inversion(const std::size_t element) const
-{
-  std::array<double, 3> centre{};
-  const std::span<const unsigned int> nodes = element_nodes(element);
-  for (const unsigned int node : nodes)
-    for (int i = 0; i < 3; ++i)
-      centre[i] += (node_position_[node][i] + displacement_[3 * std::size_t(node) + i]) / nodes.size();
-  std::ostringstream message;
-  message << "continuum: element " << element << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
-          << ") m has turned inside out; choose a smaller time step, a finer mesh there or a smaller load";
-  throw AnalysisError(message.str());
-}
-
-void ExplicitBody::kick(const double dt)
-{
-  const std::size_t n_nodes = this->n_nodes(), n_blocks = (n_nodes + block_nodes - 1) / block_nodes;
-  const double half_damping = 0.5 * parameters_.damping * dt;
-  const double half_step_before = 0.5 * ledger_.last_step, half_step_after = 0.5 * dt;
-  struct Sums
-  {
-    double kinetic = 0;
-    Work before, after;
-  };
-  std::vector<Sums> sums(n_blocks);
-#pragma omp parallel for schedule(static) if (n_nodes >= few_elements)
-  for (std::size_t block = 0; block < n_blocks; ++block)
-  {
-    Sums local;
-    const std::size_t end = std::min(n_nodes, (block + 1) * block_nodes);
-    for (std::size_t node = block * block_nodes; node < end; ++node)
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        const std::size_t dof = 3 * node + i;
-        const double mass = mass_[dof], old = velocity_[dof];
-        const double external = external_force_[dof], weight = mass * parameters_.gravity[i];
-        const double force = external + weight - internal_force_[dof];
-        const int constraint = constraint_of_dof_[dof];
-        double fresh, damping, reaction = 0;
-        if (constraint < 0)
-        {
-          fresh = ((1 - half_damping) * old + dt * force / mass) / (1 + half_damping);
-          damping = 0.5 * parameters_.damping * mass * (old + fresh);
-        }
-        else
-        {
-          fresh = constraint_velocity_[constraint];
-          damping = 0.5 * parameters_.damping * mass * (old + fresh);
-          reaction = mass * (fresh - old) / dt + damping - force;
-        }
-        velocity_[dof] = fresh;
-        reaction_force_[dof] = reaction;
-        local.kinetic += 0.5 * mass * old * fresh;
-        const auto add = [&](Work &work, const double path)
-        {
-          work.external += external * path;
-          work.gravity += weight * path;
-          work.boundary += reaction * path;
-          work.viscous += damping * path;
-        };
-        add(local.before, half_step_before * old);
-        add(local.after, half_step_after * fresh);
-      }
-    sums[block] = local;
-  }
-
-  const auto accumulate = [](Work &total, const Work &part)
-  {
-    total.external += part.external;
-    total.gravity += part.gravity;
-    total.boundary += part.boundary;
-    total.viscous += part.viscous;
-  };
-  Sums total;
-  for (const Sums &block : sums)
-  {
-    total.kinetic += block.kinetic;
-    accumulate(total.before, block.before);
-    accumulate(total.after, block.after);
-  }
-  ledger_.here = ledger_.ahead;
-  accumulate(ledger_.here, total.before);
-  ledger_.ahead = ledger_.here;
-  accumulate(ledger_.ahead, total.after);
-  ledger_.kinetic = total.kinetic;
-  if (ledger_.last_step == 0)
-    ledger_.initial = ledger_.kinetic + elements_->elastic_energy() + elements_->dissipated_energy();
-  ledger_.last_step = dt;
-}
-
-void ExplicitBody::rest()
-{
-  for (std::size_t dof = 0; dof < velocity_.size(); ++dof)
-  {
-    velocity_[dof] = 0;
-    const double force = external_force_[dof] + mass_[dof] * parameters_.gravity[dof % 3] - internal_force_[dof];
-    reaction_force_[dof] = constraint_of_dof_[dof] < 0 ? 0 : -force;
-  }
-  ledger_ = {};
-}
-
-void ExplicitBody::drift(const double dt)
-{
-  const std::size_t n_dofs = displacement_.size();
-#pragma omp parallel for schedule(static) if (n_dofs >= 3 * few_elements)
-  for (std::size_t dof = 0; dof < n_dofs; ++dof)
-    displacement_[dof] += dt * velocity_[dof];
-}
-
-ExplicitBody::Constraint ExplicitBody::prescribe_velocity(const unsigned int boundary_id, const unsigned int component,
-                                                          const double velocity)
-{
-  return prescribe_velocity(boundary_nodes(boundary_id), component, velocity);
-}
-
-ExplicitBody::Constraint ExplicitBody::prescribe_velocity(const std::span<const unsigned int> nodes,
-                                                          const unsigned int component, const double velocity)
-{
-  if (component > 2)
-    reject("continuum: component ", component,
-           " of a prescribed velocity is not allowed; choose 0, 1 or 2 for x, y, z");
-  for (const unsigned int node : nodes)
-    if (node >= n_nodes())
-      reject("continuum: a velocity is prescribed at node ", node, ", but there are only ", n_nodes(), " nodes");
-  const Constraint constraint = constraint_velocity_.size();
-  auto &dofs = constraint_dofs_.emplace_back();
-  for (const unsigned int node : nodes)
-  {
-    const std::size_t dof = 3 * std::size_t(node) + component;
-    if (constraint_of_dof_[dof] >= 0)
-      continue;
-    constraint_of_dof_[dof] = constraint;
-    dofs.push_back(dof);
-  }
-  constraint_velocity_.push_back(velocity);
-  return constraint;
-}
-
-double ExplicitBody::reaction(const Constraint constraint) const
-{
-  double sum = 0;
-  for (const unsigned int dof : constraint_dofs_[constraint])
-    sum += reaction_force_[dof];
-  return sum;
 }
 
 std::vector<unsigned int> ExplicitBody::boundary_nodes(const unsigned int boundary_id) const
@@ -337,71 +115,6 @@ std::vector<unsigned int> ExplicitBody::boundary_nodes(const unsigned int bounda
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
-}
-
-Stress ExplicitBody::average_stress() const
-{
-  Stress result{};
-  double volume = 0;
-  for (std::size_t e = 0; e < n_elements(); ++e)
-  {
-    const Stress stress = state_of(e).stress;
-    for (int i = 0; i < 6; ++i)
-      result[i] += elements_->volume(e) * stress[i];
-    volume += elements_->volume(e);
-  }
-  for (double &component : result)
-    component /= volume;
-  return result;
-}
-
-BodyEnergy ExplicitBody::energy() const
-{
-  BodyEnergy energy;
-  energy.kinetic = ledger_.kinetic;
-  energy.elastic = elements_->elastic_energy();
-  energy.plastic_dissipation = elements_->dissipated_energy();
-  energy.viscous_dissipation = ledger_.here.viscous;
-  energy.boundary_work = ledger_.here.boundary;
-  energy.gravity_work = ledger_.here.gravity;
-  energy.external_work = ledger_.here.external;
-  energy.initial = ledger_.last_step > 0 ? ledger_.initial : energy.elastic + energy.plastic_dissipation;
-  return energy;
-}
-
-double ExplicitBody::max_velocity() const
-{
-  double greatest = 0;
-  for (std::size_t node = 0; node < n_nodes(); ++node)
-  {
-    const double x = velocity_[3 * node], y = velocity_[3 * node + 1], z = velocity_[3 * node + 2];
-    greatest = std::max(greatest, x * x + y * y + z * z);
-  }
-  return std::sqrt(greatest);
-}
-
-bool ExplicitBody::is_finite() const
-{
-  const auto finite = [](const double x) { return std::isfinite(x); };
-  return std::all_of(velocity_.begin(), velocity_.end(), finite) &&
-         std::all_of(displacement_.begin(), displacement_.end(), finite);
-}
-
-std::vector<std::pair<std::string, std::span<double>>> ExplicitBody::state()
-{
-  static_assert(sizeof(Ledger) % sizeof(double) == 0);
-  std::vector<std::pair<std::string, std::span<double>>> result{
-      {"displacement", doubles_of(displacement_)},
-      {"displacement_of_stress", doubles_of(displacement_of_stress_)},
-      {"velocity", doubles_of(velocity_)},
-      {"internal_force", doubles_of(internal_force_)},
-      {"external_force", doubles_of(external_force_)},
-      {"reaction_force", doubles_of(reaction_force_)},
-      {"constraint_velocity", {constraint_velocity_.data(), constraint_velocity_.size()}},
-      {"ledger", {reinterpret_cast<double *>(&ledger_), sizeof(Ledger) / sizeof(double)}}};
-  for (auto &view : elements_->state())
-    result.push_back(std::move(view));
-  return result;
 }
 
 } // namespace bergamo::fe

@@ -3,11 +3,11 @@
 #include "fe_dealii/error.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/material/principal.h"
+#include "fe_dealii/membrane_body.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/numerics/data_out.h>
 
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -16,57 +16,19 @@
 namespace bergamo::fe
 {
 
-void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
+namespace
 {
-  const char *const names[] = {"stress_xx",
-                               "stress_yy",
-                               "stress_zz",
-                               "stress_xy",
-                               "stress_yz",
-                               "stress_zx",
-                               "principal_stress_1",
-                               "principal_stress_2",
-                               "principal_stress_3",
-                               "pressure",
-                               "deviatoric_stress",
-                               "yield_function",
-                               "equivalent_plastic_strain"};
-  std::array<dealii::Vector<float>, std::size(names)> cell_data;
-  for (auto &data : cell_data)
-    data.reinit(body.n_elements());
-  for (std::size_t e = 0; e < body.n_elements(); ++e)
-  {
-    const ElementState state = body.state_of(e);
-    const Stress &stress = state.stress;
-    const PrincipalFrame<double> frame = principal_frame(stress);
-    for (int i = 0; i < 6; ++i)
-      cell_data[i][e] = stress[i];
-    for (int k = 0; k < 3; ++k)
-      cell_data[6 + k][e] = frame.value[k];
-    cell_data[9][e] = -mean_stress(stress);
-    cell_data[10][e] = std::sqrt(3 * second_invariant(stress));
-    cell_data[11][e] = state.yield_function;
-    cell_data[12][e] = state.plastic_strain;
-  }
 
-  dealii::DataOut<3> output;
-  output.attach_dof_handler(body.dof_handler());
-  const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> vector_field(
-      3, dealii::DataComponentInterpretation::component_is_part_of_vector);
-  using Output = dealii::DataOut<3>;
-  output.add_data_vector(body.displacement(), std::vector<std::string>(3, "displacement"), Output::type_dof_data,
-                         vector_field);
-  output.add_data_vector(body.velocity(), std::vector<std::string>(3, "velocity"), Output::type_dof_data, vector_field);
-  for (std::size_t k = 0; k < cell_data.size(); ++k)
-    output.add_data_vector(cell_data[k], names[k], Output::type_cell_data);
-  output.build_patches();
-
+/// Writes a file by write(stream) aside and then renames it.
+template <class Write>
+void write_whole(const std::filesystem::path &path, const Write &write)
+{
   const std::filesystem::path aside = path.string() + ".part";
   std::error_code error;
   {
     std::ofstream file(aside);
     if (file)
-      output.write_vtu(file);
+      write(file);
     file.flush();
     if (!file)
     {
@@ -83,6 +45,77 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
     std::filesystem::remove(aside, error);
     throw AnalysisError("cannot rename " + aside.string() + " to " + path.string() + ": " + reason);
   }
+}
+
+template <int dim, class Body>
+void write(const Body &body, const std::vector<std::string> &names, const std::vector<dealii::Vector<float>> &cell_data,
+           const std::filesystem::path &path)
+{
+  using Output = dealii::DataOut<dim, 3>;
+  Output output;
+  output.attach_dof_handler(body.dof_handler());
+  const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> vector_field(
+      3, dealii::DataComponentInterpretation::component_is_part_of_vector);
+  output.add_data_vector(body.displacement(), std::vector<std::string>(3, "displacement"), Output::type_dof_data,
+                         vector_field);
+  output.add_data_vector(body.velocity(), std::vector<std::string>(3, "velocity"), Output::type_dof_data, vector_field);
+  for (std::size_t k = 0; k < cell_data.size(); ++k)
+    output.add_data_vector(cell_data[k], names[k], Output::type_cell_data);
+  output.build_patches();
+  write_whole(path, [&](std::ostream &file) { output.write_vtu(file); });
+}
+
+} // namespace
+
+void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
+{
+  const std::vector<std::string> names{"stress_xx",
+                                       "stress_yy",
+                                       "stress_zz",
+                                       "stress_xy",
+                                       "stress_yz",
+                                       "stress_zx",
+                                       "principal_stress_1",
+                                       "principal_stress_2",
+                                       "principal_stress_3",
+                                       "pressure",
+                                       "deviatoric_stress",
+                                       "yield_function",
+                                       "equivalent_plastic_strain",
+                                       "elastic_energy_density"};
+  std::vector<dealii::Vector<float>> cell_data(names.size(), dealii::Vector<float>(body.n_elements()));
+  for (std::size_t e = 0; e < body.n_elements(); ++e)
+  {
+    const ElementState state = body.state_of(e);
+    const Stress &stress = state.stress;
+    const PrincipalFrame<double> frame = principal_frame(stress);
+    for (int i = 0; i < 6; ++i)
+      cell_data[i][e] = stress[i];
+    for (int k = 0; k < 3; ++k)
+      cell_data[6 + k][e] = frame.value[k];
+    cell_data[9][e] = -mean_stress(stress);
+    cell_data[10][e] = std::sqrt(3 * second_invariant(stress));
+    cell_data[11][e] = state.yield_function;
+    cell_data[12][e] = state.plastic_strain;
+    cell_data[13][e] = state.energy_density;
+  }
+  write<3>(body, names, cell_data, path);
+}
+
+void write_vtu(const MembraneBody &body, const std::filesystem::path &path)
+{
+  const std::vector<std::string> names{"principal_stress_1", "principal_stress_2", "thickness",
+                                       "elastic_energy_density"};
+  std::vector<dealii::Vector<float>> cell_data(names.size(), dealii::Vector<float>(body.n_elements()));
+  for (std::size_t e = 0; e < body.n_elements(); ++e)
+  {
+    const MembraneState state = body.membrane_state_of(e);
+    for (int k = 0; k < 2; ++k)
+      cell_data[k][e] = state.principal_stress[k];
+    cell_data[2][e] = state.thickness;
+    cell_data[3][e] = body.state_of(e).energy_density;
+  }
+  write<2>(body, names, cell_data, path);
 }
 
 } // namespace bergamo::fe

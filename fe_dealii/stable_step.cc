@@ -1,81 +1,21 @@
 #include "fe_dealii/stable_step.h"
 
-#include "fe_dealii/explicit_body.h"
+#include "fe_dealii/element/largest_eigenvalue.h"
+#include "fe_dealii/moving_body.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace bergamo::fe
 {
-namespace
-{
 
-// Upper bound on the largest eigenvalue of a symmetric positive semi-definite matrix A of n rows, which is overwritten.
-// With T_m = tr A^m, (T_2m/T_m)^(1/m) <= λ <= T_m^(1/m): squaring A closes the bracket from both sides, where a power
-// iteration would come from below, the unsafe side, and may miss a mode.
-double largest_eigenvalue_bound(std::vector<double> &matrix, const std::size_t n)
-{
-  std::vector<double> square(n * n);
-  double log_scale = 0; // the power of A is matrix * exp(log_scale)
-  double upper = 0;
-  double power = 1;
-  double log_trace_of_half = 0;
-  for (int squaring = 0; squaring < 14; ++squaring)
-  {
-    double trace = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      trace += matrix[n * i + i];
-    if (!(trace > 0))
-      return 0;
-    const double log_trace = log_scale + std::log(trace);
-    upper = log_trace / power;
-    if (squaring > 0)
-    {
-      const double lower = (log_trace - log_trace_of_half) / (power / 2);
-      if (upper - lower < 4e-3)
-        break;
-    }
-    log_trace_of_half = log_trace;
-    for (double &entry : matrix)
-      // Tiny entries would sink into slow denormal numbers; against a trace of 1 they are nothing.
-      entry = std::abs(entry) > 1e-60 * trace ? entry / trace : 0;
-    std::fill(square.begin(), square.end(), 0.);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t j = 0; j < n; ++j)
-          square[n * i + j] += matrix[n * i + k] * matrix[n * k + j];
-    std::swap(matrix, square);
-    log_scale = 2 * log_trace;
-    power *= 2;
-  }
-  return std::exp(upper) * (1 + 1e-12); // covers rounding of the sums
-}
-
-double element_eigenvalue(const ExplicitBody &body, const std::size_t element)
-{
-  const ElementGroup &elements = body.elements();
-  const std::size_t n = elements.dofs_per_element();
-  std::vector<double> matrix(n * n), mass(elements.nodes_per_element());
-  elements.stiffness(element, body.displacement().begin(), matrix.data());
-  elements.lumped_mass(element, mass.data());
-  if (!(mass[0] > 0)) // no share in the continuum
-    return 0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      matrix[n * i + j] /= std::sqrt(mass[i / 3] * mass[j / 3]);
-  return largest_eigenvalue_bound(matrix, n);
-}
-
-} // namespace
-
-StableStep stable_step(const ExplicitBody &body)
+StableStep stable_step(const MovingBody &body)
 {
   std::vector<double> eigenvalue(body.n_elements());
 #pragma omp parallel for schedule(static)
   for (std::size_t e = 0; e < eigenvalue.size(); ++e)
-    eigenvalue[e] = element_eigenvalue(body, e);
+    eigenvalue[e] = largest_eigenvalue(body.elements(), e, body.displacement().begin()) / body.mass_factor(e);
   const auto largest = std::max_element(eigenvalue.begin(), eigenvalue.end());
   return {2 / std::sqrt(*largest), *largest, std::size_t(largest - eigenvalue.begin())};
 }

@@ -5,7 +5,7 @@
 namespace bergamo::fe
 {
 
-class ExplicitBody;
+class MovingBody;
 
 struct StableStep
 {
@@ -14,11 +14,11 @@ struct StableStep
   std::size_t element;       ///< the element that sets it
 };
 
-/// Stable time step of a body in its elastic state at its present displacement (plastic flow only softens it). A
-/// stretched state may stiffen: ask again during a run of large strain. No eigenvalue of the body exceeds
-/// the largest one of its elements, K_e x = λ M_e x with the lumped element mass (Belytschko, Liu, Moran 2000,
-/// sec. 6.2; Wellmann 2.58). Each λ_e is bounded from above, by at most 0.4 %. Prescribed velocities and damping do not
-/// lower it.
-StableStep stable_step(const ExplicitBody &body);
+/// Stable time step of a body in its elastic state at its present displacement (plastic flow only softens it), with the
+/// inertia that mass scaling gave. A stretched state may stiffen: ask again during a run of large strain. No eigenvalue
+/// of the body exceeds the largest one of its elements, K_e x = λ M_e x with the lumped element mass (Belytschko, Liu,
+/// Moran 2000, sec. 6.2; Wellmann 2.58). Each λ_e is bounded from above, by at most 0.4 %. Prescribed velocities and
+/// damping do not lower it. Pressures that follow a surface are not in it.
+StableStep stable_step(const MovingBody &body);
 
 } // namespace bergamo::fe

@@ -6,7 +6,9 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/tria.h>
 
+#include <map>
 #include <sstream>
+#include <utility>
 
 namespace bergamo::fe
 {
@@ -38,6 +40,36 @@ Surface boundary_surface(const dealii::DoFHandler<3, 3> &dof_handler, const unsi
     for (const auto id : dof_handler.get_triangulation().get_boundary_ids())
       message << ' ' << id;
     throw ParameterError(message.str());
+  }
+  return surface;
+}
+
+Surface membrane_surface(const dealii::DoFHandler<2, 3> &dof_handler)
+{
+  Surface surface;
+  // An edge that two cells run along in the same direction has one's front beside the other's back.
+  std::map<std::pair<unsigned int, unsigned int>, unsigned int> cell_of_edge;
+  for (const auto &cell : dof_handler.active_cell_iterators())
+  {
+    std::array<unsigned int, 4> node;
+    for (unsigned int vertex = 0; vertex < 4; ++vertex)
+      node[vertex] = cell->vertex_dof_index(vertex, 0) / 3;
+    if (!cell->direction_flag())
+      std::swap(node[1], node[2]);
+    surface.nodes.insert(surface.nodes.end(), node.begin(), node.end());
+    constexpr int around[] = {0, 1, 3, 2, 0};
+    for (int k = 0; k < 4; ++k)
+    {
+      const auto [other, is_new] =
+          cell_of_edge.insert({{node[around[k]], node[around[k + 1]]}, cell->active_cell_index()});
+      if (is_new)
+        continue;
+      std::ostringstream message;
+      message << "membrane: cells " << other->second << " and " << cell->active_cell_index() << " at ("
+              << cell->center() << ") m turn opposite sides to the same side of the membrane; order the nodes of all "
+              << "cells alike, or put no pressure on a membrane that has one side only";
+      throw ParameterError(message.str());
+    }
   }
   return surface;
 }

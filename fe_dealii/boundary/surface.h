@@ -14,8 +14,8 @@ class DoFHandler;
 namespace bergamo::fe
 {
 
-/// Faces of a boundary, by the nodes of the body: tensor products of (degree + 1)² nodes, x fastest, ordered so that
-/// the cross product of the first and the second direction points out of the body.
+/// Faces of a boundary or of a membrane, by the nodes of the body: tensor products of (degree + 1)² nodes, x fastest,
+/// ordered so that the cross product of the first and the second direction points out of the body.
 struct Surface
 {
   int degree = 1; ///< 1 or 2
@@ -32,6 +32,11 @@ struct Surface
 /// All faces of a boundary. Throws ParameterError where the mesh has no such boundary.
 /// @param dof_handler of a body: FESystem(FE_Q(degree), 3), dofs 3*node + component
 Surface boundary_surface(const dealii::DoFHandler<3, 3> &dof_handler, unsigned int boundary_id);
+
+/// All cells of a mesh of membranes; their order of nodes and deal.II's direction flag say where the cross product
+/// points: out of the spheres of GridGenerator. Throws ParameterError where two neighbours disagree.
+/// @param dof_handler of a body: FESystem(FE_Q(1), 3), dofs 3*node + component
+Surface membrane_surface(const dealii::DoFHandler<2, 3> &dof_handler);
 
 /// Linear triangles between the nodes of the surface, outward counterclockwise: two for each face of 4 nodes, eight for
 /// each of 9 (the analogue of Wellmann's fig. 4.1).

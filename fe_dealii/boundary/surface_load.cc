@@ -30,6 +30,15 @@ SurfaceLoad::SurfaceLoad(Surface surface, const std::span<const std::array<doubl
   }
 }
 
+/// Of a face's node. @param displacement of the body, or null at rest
+double SurfaceLoad::position(const std::size_t face, const int node, const int component,
+                             const double *displacement) const
+{
+  const std::size_t place = face * surface_.nodes_per_face() + node;
+  const std::size_t dof = 3 * std::size_t(surface_.nodes[place]) + component;
+  return position_[place][component] + (displacement ? displacement[dof] : 0);
+}
+
 /// Normal times the area that belongs to a point of quadrature. @param displacement of the body, or null at rest
 SurfaceLoad::Vector SurfaceLoad::area_vector(const std::size_t face, const Point &point,
                                              const double *displacement) const
@@ -37,11 +46,9 @@ SurfaceLoad::Vector SurfaceLoad::area_vector(const std::size_t face, const Point
   Vector along_1{}, along_2{};
   for (int node = 0; node < surface_.nodes_per_face(); ++node)
   {
-    const std::size_t place = face * surface_.nodes_per_face() + node;
     for (int i = 0; i < 3; ++i)
     {
-      const double x =
-          position_[place][i] + (displacement ? displacement[3 * std::size_t(surface_.nodes[place]) + i] : 0);
+      const double x = position(face, node, i, displacement);
       along_1[i] += point.slope_1[node] * x;
       along_2[i] += point.slope_2[node] * x;
     }
@@ -87,6 +94,20 @@ double SurfaceLoad::reference_area() const
     {
       const Vector a = area_vector(face, point, nullptr);
       sum += std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    }
+  return sum;
+}
+
+double SurfaceLoad::volume(const std::span<const double> displacement) const
+{
+  double sum = 0;
+  for (std::size_t face = 0; face < surface_.size(); ++face)
+    for (const Point &point : points_)
+    {
+      const Vector area = area_vector(face, point, displacement.data());
+      for (int node = 0; node < surface_.nodes_per_face(); ++node)
+        for (int i = 0; i < 3; ++i)
+          sum += point.value[node] * position(face, node, i, displacement.data()) * area[i] / 3;
     }
   return sum;
 }

@@ -24,6 +24,10 @@ public:
   void add_pressure(double pressure, std::span<const double> displacement, std::span<double> force) const;
 
   double reference_area() const; ///< [m²]
+
+  /// Volume inside a closed surface, that of the cone from the origin to an open one [m³]. Of a closed surface the
+  /// forces of a unit pressure are minus its derivative by the displacement, to rounding.
+  double volume(std::span<const double> displacement) const;
   const Surface &surface() const { return surface_; }
 
 private:
@@ -34,6 +38,7 @@ private:
   };
   using Vector = std::array<double, 3>;
   Vector area_vector(std::size_t face, const Point &point, const double *displacement) const;
+  double position(std::size_t face, int node, int component, const double *displacement) const;
 
   Surface surface_;
   std::vector<Vector> position_; // of the surface's nodes, in its order

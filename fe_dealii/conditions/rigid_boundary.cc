@@ -90,7 +90,7 @@ void RigidBodyParameters::validate() const
   }
 }
 
-RigidBoundary::RigidBoundary(ExplicitBody &body, const std::span<const unsigned int> nodes,
+RigidBoundary::RigidBoundary(MovingBody &body, const std::span<const unsigned int> nodes,
                              const RigidBodyParameters &parameters)
     : body(body), parameters((parameters.validate(), parameters)), nodes(nodes.begin(), nodes.end()),
       mass_(parameters.mass)
@@ -139,8 +139,8 @@ void RigidBoundary::gather_forces()
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::size_t dof = 3 * std::size_t(node) + i;
-      force[i] = body.external_force()[dof] - body.internal_force()[dof] +
-                 body.mass()[dof] * (body.gravity()[i] - body.damping() * body.velocity()[dof]);
+      force[i] = body.external_force()[dof] + body.weight(dof) - body.internal_force()[dof] -
+                 body.damping() * body.mass()[dof] * body.velocity()[dof];
       from_centre[i] = body.node_position()[node][i] + body.displacement()[dof] - now.centre[i];
     }
     const Vector turn = cross(from_centre, force);

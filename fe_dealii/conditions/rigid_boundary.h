@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe_dealii/explicit_body.h"
+#include "fe_dealii/moving_body.h"
 
 #include <array>
 #include <span>
@@ -32,7 +32,7 @@ public:
 
   /// Takes all components of the nodes. Throws ParameterError for bad parameters, no nodes, or nodes of which a
   /// component is prescribed already.
-  RigidBoundary(ExplicitBody &body, std::span<const unsigned int> nodes, const RigidBodyParameters &parameters);
+  RigidBoundary(MovingBody &body, std::span<const unsigned int> nodes, const RigidBodyParameters &parameters);
 
   /// To be called in every step, between compute_internal_force() and kick(). @param dt [s]
   /// @{
@@ -62,12 +62,12 @@ private:
   void gather_forces();
   void advance(double dt);
 
-  ExplicitBody &body;
+  MovingBody &body;
   RigidBodyParameters parameters;
   std::vector<unsigned int> nodes;
-  std::vector<ExplicitBody::Constraint> constraints; // three a node
-  std::vector<Vector> arm;                           // from the centre, at the start
-  Vector own_centre{};                               // of the rigid body alone, from the centre, at the start
+  std::vector<MovingBody::Constraint> constraints; // three a node
+  std::vector<Vector> arm;                         // from the centre, at the start
+  Vector own_centre{};                             // of the rigid body alone, from the centre, at the start
   double mass_;
   double inertia[3][3]; // of both together, at the start
   Vector force_{}, moment_{};

@@ -18,6 +18,7 @@ struct ElementState
   Stress stress{};           ///< Cauchy, mean over the volume [Pa]
   double yield_function = 0; ///< of the mean stress [Pa]; 0 without a yield surface
   double plastic_strain = 0; ///< mean of the accumulated equivalent strain [-]
+  double energy_density = 0; ///< elastic_energy() over the reference volume, whatever the share [J/m³]
 };
 
 /// Elements of one shape and one law: strains to stresses to nodal forces. Calls are virtual by blocks of elements.
@@ -46,14 +47,15 @@ public:
 
   /// Computes the forces of the elements from begin to end. Blocks may run at the same time.
   /// @param before displacement at the last call
-  /// @return the first element that has turned inside out
+  /// @return the first element that has collapsed or turned inside out
   virtual std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
                                                     const double *before) = 0;
 
   /// Lumped mass at the nodes of an element, all positive [kg].
   virtual void lumped_mass(std::size_t element, double *mass) const = 0;
 
-  /// Elastic stiffness at a displacement, row-major [N/m]; of the stiffest point where it depends on the pressure.
+  /// Elastic stiffness at a displacement, row-major [N/m]; of the stiffest point where it depends on the pressure. At
+  /// large strain the tangent, with the part of the present stresses.
   virtual void stiffness(std::size_t element, const double *displacement, double *matrix) const = 0;
 
   /// Derivative by the displacement of the forces that compute_forces(displacement, before) would give, row-major

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe_dealii/element/difference_tangent.h"
 #include "fe_dealii/element/solid_geometry.h"
 #include "fe_dealii/material/hyperelastic.h"
 
@@ -94,30 +95,14 @@ Response internal_force(const Law &law, const Element &element, const Dilatation
   return response;
 }
 
-/// Tangent stiffness by central differences of the forces, row-major, made symmetric [N/m]. Its error is about 1e-9 of
-/// the largest entry.
+/// Tangent stiffness, see difference_tangent() [N/m].
 template <class Law, class Element>
 void tangent_stiffness(const Law &law, const Element &element, const Dilatation dilatation, const double *u,
                        double *stiffness)
 {
-  constexpr int n = 3 * Element::nodes;
-  const double step = 1e-5 * std::cbrt(element.whole_volume());
-  double moved[n], more[n], less[n];
-  std::copy(u, u + n, moved);
-  for (int column = 0; column < n; ++column)
-  {
-    moved[column] = u[column] + step;
-    internal_force(law, element, dilatation, moved, more);
-    moved[column] = u[column] - step;
-    internal_force(law, element, dilatation, moved, less);
-    moved[column] = u[column];
-    for (int row = 0; row < n; ++row)
-      stiffness[n * row + column] = (more[row] - less[row]) / (2. * step);
-  }
-  for (int row = 0; row < n; ++row)
-    for (int column = 0; column < row; ++column)
-      stiffness[n * row + column] = stiffness[n * column + row] =
-          0.5 * (stiffness[n * row + column] + stiffness[n * column + row]);
+  difference_tangent<3 * Element::nodes>([&](const double *moved, double *force)
+                                         { internal_force(law, element, dilatation, moved, force); },
+                                         u, 1e-5 * std::cbrt(element.whole_volume()), stiffness);
 }
 
 } // namespace bergamo::fe::finite_strain

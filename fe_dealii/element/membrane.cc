@@ -27,11 +27,18 @@ Vector unit(Vector a)
   return a;
 }
 
+const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.), 0.5 + 0.5 / std::sqrt(3.)}; // points of the unit interval
+
 } // namespace
+
+double shape_value(const int node, const int point)
+{
+  const double x = gauss[point % 2], y = gauss[point / 2];
+  return (node % 2 == 0 ? 1 - x : x) * (node / 2 == 0 ? 1 - y : y);
+}
 
 Geometry reference_geometry(const std::array<Vector, n_nodes> &nodes, const double thickness)
 {
-  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.), 0.5 + 0.5 / std::sqrt(3.)};
   const auto diagonals = [&](const int a, const int b, const int c, const int d)
   {
     Vector one, other;

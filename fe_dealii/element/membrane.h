@@ -2,6 +2,7 @@
 
 #include "fe_dealii/material/lanes.h"
 
+#include <algorithm>
 #include <array>
 
 /// Membrane of four nodes and 2×2 points for large strains of incompressible rubber: no bending stiffness, plane
@@ -35,46 +36,93 @@ struct Geometry
 /// @return a geometry in which a point where the element is degenerate or folded over has no positive volume
 Geometry reference_geometry(const std::array<std::array<double, 3>, n_nodes> &nodes, double thickness);
 
-/// Internal forces, the derivative of the energy by the displacements.
-/// @param u displacements, 3*node + component [m]; @param force the same order [N]
-/// @return energy [J]
-template <class Law>
-double internal_force(const Law &law, const Geometry &element, const double *u, double *force)
+/// How an element is stretched.
+struct Stretches
 {
-  Points along[2][3]; // images of the directions
+  Points along[2][3];          ///< images of the directions
+  Points first, second, third; ///< squares of the principal stretches: first >= second in the plane, third across
+  Points cosine, sine;         ///< of twice the angle from direction 1 to that of the first; 0 where both are equal
+};
+
+/// @param u displacements, 3*node + component [m]
+inline Stretches stretches(const Geometry &element, const double *u)
+{
+  Stretches s;
   for (int a = 0; a < 2; ++a)
     for (int i = 0; i < 3; ++i)
     {
-      along[a][i] = element.direction[a][i];
+      s.along[a][i] = element.direction[a][i];
       for (int node = 0; node < n_nodes; ++node)
-        along[a][i] += u[3 * node + i] * element.gradient[a][node];
+        s.along[a][i] += u[3 * node + i] * element.gradient[a][node];
     }
   const auto dot = [&](const int a, const int b)
-  { return Points(along[a][0] * along[b][0] + along[a][1] * along[b][1] + along[a][2] * along[b][2]); };
+  { return Points(s.along[a][0] * s.along[b][0] + s.along[a][1] * s.along[b][1] + s.along[a][2] * s.along[b][2]); };
   const Points c11 = dot(0, 0), c22 = dot(1, 1), c12 = dot(0, 1);
-
-  // Principal squares of the stretches in the plane, and the angle 2θ of the first one's direction.
   const Points mean = 0.5 * (c11 + c22), half_gap = 0.5 * (c11 - c22);
   const Points radius = lanes::square_root(Points(half_gap * half_gap + c12 * c12));
   const Points safe = radius > 0. ? radius : Points{} + 1.;
-  const Points cosine = half_gap / safe, sine = c12 / safe;
+  s.cosine = half_gap / safe;
+  s.sine = c12 / safe;
   const Points determinant = c11 * c22 - c12 * c12;
-  const Points first = mean + radius, second = determinant / first, third = 1. / determinant;
+  s.first = mean + radius;
+  s.second = determinant / s.first;
+  s.third = 1. / determinant;
+  return s;
+}
 
-  // Kirchhoff stresses; the pressure of incompressibility is what makes the third one vanish.
-  const Points across = law.principal_slope(third);
-  const Points s1 = (law.principal_slope(first) - across) / first, s2 = (law.principal_slope(second) - across) / second;
-  const Points s_mean = 0.5 * (s1 + s2), s_half = 0.5 * (s1 - s2);
-  const Points s11 = element.volume * (s_mean + s_half * cosine), s22 = element.volume * (s_mean - s_half * cosine),
-               s12 = element.volume * s_half * sine;
+/// Stresses of an element.
+struct Stresses
+{
+  Points principal[2];       ///< Cauchy, in the directions of the stretches [Pa]
+  Points second_piola[2][2]; ///< in directions 1 and 2 [Pa]
+};
+
+template <class Law>
+Stresses stresses(const Law &law, const Stretches &s)
+{
+  Stresses result;
+  // The pressure of incompressibility is what makes the third one vanish.
+  const Points across = law.principal_slope(s.third);
+  result.principal[0] = law.principal_slope(s.first) - across;
+  result.principal[1] = law.principal_slope(s.second) - across;
+  const Points s1 = result.principal[0] / s.first, s2 = result.principal[1] / s.second;
+  const Points mean = 0.5 * (s1 + s2), half = 0.5 * (s1 - s2);
+  result.second_piola[0][0] = mean + half * s.cosine;
+  result.second_piola[1][1] = mean - half * s.cosine;
+  result.second_piola[0][1] = result.second_piola[1][0] = half * s.sine;
+  return result;
+}
+
+/// What a configuration of an element gives beside its forces.
+struct Response
+{
+  double energy = 0.;       ///< [J]
+  double least_growth = 0.; ///< least square of present over reference area at any point
+};
+
+/// Internal forces, the derivative of the energy by the displacements.
+/// @param u displacements, 3*node + component [m]; @param force the same order [N]
+template <class Law>
+Response internal_force(const Law &law, const Geometry &element, const double *u, double *force)
+{
+  const Stretches stretch = stretches(element, u);
+  const Stresses stress = stresses(law, stretch);
+  const Points s11 = element.volume * stress.second_piola[0][0], s22 = element.volume * stress.second_piola[1][1],
+               s12 = element.volume * stress.second_piola[0][1];
   for (int i = 0; i < 3; ++i)
   {
-    const Points p1 = s11 * along[0][i] + s12 * along[1][i], p2 = s12 * along[0][i] + s22 * along[1][i];
+    const Points p1 = s11 * stretch.along[0][i] + s12 * stretch.along[1][i],
+                 p2 = s12 * stretch.along[0][i] + s22 * stretch.along[1][i];
     for (int node = 0; node < n_nodes; ++node)
       force[3 * node + i] = sum(p1 * element.gradient[0][node] + p2 * element.gradient[1][node]);
   }
-  return sum(element.volume *
-             (law.principal_energy(first) + law.principal_energy(second) + law.principal_energy(third)));
+  const Points growth = 1. / stretch.third;
+  return {sum(element.volume * (law.principal_energy(stretch.first) + law.principal_energy(stretch.second) +
+                                law.principal_energy(stretch.third))),
+          std::min(std::min(growth[0], growth[1]), std::min(growth[2], growth[3]))};
 }
+
+/// Value of a shape function at a point, the quadrature point of the same number in Geometry.
+double shape_value(int node, int point);
 
 } // namespace bergamo::fe::membrane

@@ -48,6 +48,10 @@ protected:
   double greatest_stiffness_factor(std::size_t element) const;
 
 private:
+  /// No energy depends on the stress alone where the stiffness depends on the pressure: the points keep the work.
+  bool books_elastic_work() const;
+  double energy_density(std::size_t element) const; // [J/m³]
+
   Law law_;
   int n_packs_;
   std::vector<PointHistory> history_;

@@ -1,5 +1,6 @@
 #include "fe_dealii/element/solid_elements.h"
 
+#include "fe_dealii/element/cell_nodes.h"
 #include "fe_dealii/element/finite_strain_solid.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/element/small_strain_quadratic.h"
@@ -45,30 +46,6 @@ void for_each_cell(const dealii::DoFHandler<3> &dof_handler, const unsigned int 
       }
     take(values);
   }
-}
-
-/// Nodes of all cells. Relies on the dof being 3 node + component, which is deal.II's order up to degree 2.
-std::vector<unsigned int> element_nodes(const dealii::DoFHandler<3> &dof_handler)
-{
-  const auto &element = dof_handler.get_fe();
-  const unsigned int n_nodes = element.dofs_per_cell / 3;
-  std::vector<unsigned int> nodes;
-  nodes.reserve(std::size_t(n_nodes) * dof_handler.get_triangulation().n_active_cells());
-  std::vector<dealii::types::global_dof_index> dofs(element.dofs_per_cell);
-  for (const auto &cell : dof_handler.active_cell_iterators())
-  {
-    cell->get_dof_indices(dofs);
-    for (unsigned int node = 0; node < n_nodes; ++node)
-    {
-      const auto first = dofs[element.component_to_system_index(0, node)];
-      if (first % 3 != 0 || dofs[element.component_to_system_index(1, node)] != first + 1 ||
-          dofs[element.component_to_system_index(2, node)] != first + 2)
-        throw AnalysisError("continuum: this version of deal.II numbers the displacement components of a node apart; "
-                            "use 9.4, or renumber in element_nodes()");
-      nodes.push_back(first / 3);
-    }
-  }
-  return nodes;
 }
 
 template <class Law>
@@ -134,7 +111,7 @@ std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3>
                   geometries.push_back(geometry);
                   add_start(values, law, initial_stress, start);
                 });
-  return std::make_unique<SmallStrainHexahedra<Law>>(law, element_nodes(dof_handler), std::move(geometries),
+  return std::make_unique<SmallStrainHexahedra<Law>>(law, cell_nodes(dof_handler), std::move(geometries),
                                                      std::move(start));
 }
 
@@ -191,7 +168,7 @@ std::unique_ptr<ElementGroup> small_strain_quadratic(const dealii::DoFHandler<3>
   std::vector<PointHistory> start;
   Solids<27> solids(dof_handler,
                     [&](const dealii::FEValues<3> &values) { add_start(values, law, initial_stress, start); });
-  return std::make_unique<SmallStrainQuadratic<Law>>(law, element_nodes(dof_handler), std::move(solids.geometry),
+  return std::make_unique<SmallStrainQuadratic<Law>>(law, cell_nodes(dof_handler), std::move(solids.geometry),
                                                      std::move(solids.mass_share), std::move(start));
 }
 
@@ -199,7 +176,7 @@ template <class Law, int n_nodes>
 std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_handler, const Law &law)
 {
   Solids<n_nodes> solids(dof_handler, [](const dealii::FEValues<3> &) {});
-  return std::make_unique<FiniteStrainSolid<Law, n_nodes>>(law, element_nodes(dof_handler), std::move(solids.geometry),
+  return std::make_unique<FiniteStrainSolid<Law, n_nodes>>(law, cell_nodes(dof_handler), std::move(solids.geometry),
                                                            std::move(solids.mass_share));
 }
 

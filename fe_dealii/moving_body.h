@@ -1,0 +1,196 @@
+#pragma once
+
+#include "fe_dealii/body_energy.h"
+#include "fe_dealii/element/element_group.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bergamo::fe
+{
+
+/// What acts on every node of a body in proportion to its mass.
+struct MassForces
+{
+  std::array<double, 3> gravity{0, 0, 0}; ///< [m/s²]
+  double damping = 0;                     ///< α of the force −α m v [1/s], >= 0
+
+  /// Throws ParameterError. @param body what the message begins with
+  void validate(const std::string &body) const;
+};
+
+/// What mass scaling added to a body.
+struct MassScaling
+{
+  double added_mass = 0;      ///< [kg]
+  double share = 0;           ///< added over the body's true mass [-]
+  std::size_t n_elements = 0; ///< that were scaled
+  double largest_factor = 1;  ///< of an element's mass [-]
+};
+
+/// Nodes and elements moved by the explicit leapfrog; ExplicitBody and MembraneBody add the mesh.
+///
+/// Global frame, SI units. Dof 3*node + component. Displacement, forces and stress live at whole steps, velocity at
+/// half steps. One step:
+///   clear_external_force(); others add to external_force(); compute_internal_force(); kick(dt); drift(dt);
+/// Results are the same, bit for bit, on any number of threads.
+class MovingBody
+{
+public:
+  virtual ~MovingBody();
+
+  /// @name One step
+  /// @{
+
+  /// Internal forces [N] and stresses of the present displacement; the strain increment is that since the last call.
+  /// Throws AnalysisError, with its place, where an element has turned inside out.
+  void compute_internal_force();
+
+  /// v⁺ from v⁻ and the forces: m (v⁺ − v⁻)/dt = f_ext + weight − f_int − α m (v⁻ + v⁺)/2. The damping is centred: it
+  /// adds no limit to the time step. Prescribed dofs take their velocity and get a reaction. dt [s] > 0.
+  void kick(double dt);
+
+  /// u += dt v⁺. Use the dt of the kick before.
+  void drift(double dt);
+
+  /// Takes the present displacement and stresses for a state of rest: no velocity, reactions that hold the prescribed
+  /// dofs, accounts that start anew. Call after compute_internal_force().
+  void rest();
+
+  void clear_external_force() { external_force_ = 0; }
+  /// @}
+
+  /// @name Prescribed velocities
+  /// A dof belongs to the first constraint that names it; later ones skip it. So prescribe what matters most first.
+  /// @{
+
+  using Constraint = std::size_t;
+
+  /// Prescribes one velocity component [m/s] (0, 1, 2 = x, y, z) on all nodes of a boundary. Throws ParameterError for
+  /// a boundary id that the mesh lacks or a component above 2.
+  Constraint prescribe_velocity(unsigned int boundary_id, unsigned int component, double velocity = 0);
+
+  /// The same for a list of nodes. Throws ParameterError for a node out of range.
+  Constraint prescribe_velocity(std::span<const unsigned int> nodes, unsigned int component, double velocity = 0);
+
+  void set_velocity(Constraint constraint, double velocity) { constraint_velocity_[constraint] = velocity; }
+
+  double prescribed_velocity(Constraint constraint) const { return constraint_velocity_[constraint]; }
+  /// The constraint of a dof, or nothing if it is free.
+  std::optional<Constraint> constraint_of(std::size_t dof) const
+  {
+    return constraint_of_dof_[dof] < 0 ? std::nullopt : std::optional<Constraint>(constraint_of_dof_[dof]);
+  }
+
+  /// Resultant force that the boundary exerts on the body in the constrained component, at the last kick [N].
+  double reaction(Constraint constraint) const;
+  /// @}
+
+  /// @name Nodal vectors, length 3 * n_nodes()
+  /// @{
+  dealii::Vector<double> &displacement() { return displacement_; }     ///< [m]
+  dealii::Vector<double> &velocity() { return velocity_; }             ///< half step [m/s]
+  dealii::Vector<double> &external_force() { return external_force_; } ///< [N], without gravity
+  const dealii::Vector<double> &displacement() const { return displacement_; }
+  const dealii::Vector<double> &velocity() const { return velocity_; }
+  const dealii::Vector<double> &external_force() const { return external_force_; }
+  const dealii::Vector<double> &internal_force() const { return internal_force_; } ///< [N]
+  const dealii::Vector<double> &reaction_force() const { return reaction_force_; } ///< [N], zero at free dofs
+  const dealii::Vector<double> &mass() const { return mass_; } ///< inertia, lumped, share and scaling included [kg]
+  /// Force of gravity on a dof, of the true mass whatever its scaling [N].
+  double weight(const std::size_t dof) const { return heavy_mass()[dof] * forces_.gravity[dof % 3]; }
+  /// @}
+
+  /// @name Nodes and elements
+  /// @{
+  std::size_t n_nodes() const { return node_position_.size(); }
+  std::size_t n_elements() const { return elements_->size(); }
+  const std::vector<std::array<double, 3>> &node_position() const { return node_position_; } ///< reference [m]
+  /// Nodes of an element, in deal.II's order of the element's shape functions: the corners first.
+  std::span<const unsigned int> element_nodes(const std::size_t element) const { return elements_->nodes(element); }
+  /// Nodes of a boundary, ascending; ParameterError where the mesh has no such boundary.
+  virtual std::vector<unsigned int> boundary_nodes(unsigned int boundary_id) const = 0;
+  const ElementGroup &elements() const { return *elements_; }
+  ElementGroup &elements() { return *elements_; }
+  const std::array<double, 3> &gravity() const { return forces_.gravity; } ///< [m/s²]
+  double damping() const { return forces_.damping; }                       ///< α [1/s]
+  ElementState state_of(const std::size_t element) const
+  {
+    return elements_->state_of(element, displacement_of_stress_.begin());
+  }
+  Stress average_stress() const; ///< volume average over the body, whatever the share
+  /// Factor of an element's inertia; 1 where it is not scaled.
+  double mass_factor(const std::size_t element) const { return mass_factor_.empty() ? 1 : mass_factor_[element]; }
+  const MassScaling &mass_scaling() const { return mass_scaling_; }
+  /// @}
+
+  /// Energies at the last kick. Call between a kick and the next compute_internal_force().
+  BodyEnergy energy() const;
+  double max_velocity() const; ///< greatest |v| of a node [m/s]
+  bool is_finite() const;      ///< false once a displacement or velocity is NaN or infinite
+
+  /// Everything that changes from step to step, by name, as views. Restoring the values in a body that was set up in
+  /// the same way (mesh, parameters, constraints, share) goes on with the same bits.
+  std::vector<std::pair<std::string, std::span<double>>> state();
+
+protected:
+  /// @param name what messages begin with
+  /// @param wanted_time_step elements that bear less [s] get as much inertia as that takes; 0: none does
+  MovingBody(std::string name, std::vector<std::array<double, 3>> node_position, std::unique_ptr<ElementGroup> elements,
+             const MassForces &forces, double wanted_time_step);
+  MovingBody(MovingBody &&) noexcept;
+
+  /// Masses of the nodes from those of the elements; again after these have changed.
+  void gather_mass();
+
+  const dealii::Vector<double> &displacement_of_stress() const { return displacement_of_stress_; }
+  const std::string &name() const { return name_; }
+
+private:
+  void scale_mass();
+  const dealii::Vector<double> &heavy_mass() const { return mass_factor_.empty() ? mass_ : true_mass_; }
+  [[noreturn]] void report_inversion(std::size_t element) const;
+
+  std::string name_;
+  MassForces forces_;
+  double wanted_time_step_;
+  std::vector<std::array<double, 3>> node_position_;
+  std::unique_ptr<ElementGroup> elements_;
+  std::vector<std::size_t> slot_head_; // slots of node i: slot_[slot_head_[i]] .. slot_[slot_head_[i + 1]]
+  std::vector<unsigned int> slot_;     // places of the node in elements_->nodes(), ascending
+
+  dealii::Vector<double> displacement_, velocity_, internal_force_, external_force_, reaction_force_, mass_;
+  dealii::Vector<double> displacement_of_stress_; // where the stresses were computed last
+
+  std::vector<double> mass_factor_;  // of the elements; none where nothing is scaled
+  dealii::Vector<double> true_mass_; // without the factors; none where nothing is scaled
+  MassScaling mass_scaling_;
+
+  std::vector<int> constraint_of_dof_; // −1: free
+  std::vector<std::vector<unsigned int>> constraint_dofs_;
+  std::vector<double> constraint_velocity_;
+
+  struct Work // accumulated, trapezoidal
+  {
+    double external = 0, gravity = 0, boundary = 0, viscous = 0;
+  };
+  struct Ledger // doubles only: it is part of the state
+  {
+    Work here;  // up to the last kick
+    Work ahead; // the same plus the half of the coming drift that the last kick's forces do
+    double kinetic = 0;
+    double initial = 0;
+    double last_step = 0; // dt of the last kick [s], 0 before the first
+  };
+  Ledger ledger_;
+};
+
+} // namespace bergamo::fe
