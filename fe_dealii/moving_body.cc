@@ -158,13 +158,19 @@ void MovingBody::compute_internal_force()
     report_inversion(inverted);
 }
 
-void MovingBody::report_inversion(const std::size_t element) const
+std::array<double, 3> MovingBody::present_centre(const std::size_t element) const
 {
   std::array<double, 3> centre{};
   const std::span<const unsigned int> nodes = element_nodes(element);
   for (const unsigned int node : nodes)
     for (int i = 0; i < 3; ++i)
       centre[i] += (node_position_[node][i] + displacement_[3 * std::size_t(node) + i]) / nodes.size();
+  return centre;
+}
+
+void MovingBody::report_inversion(const std::size_t element) const
+{
+  const std::array<double, 3> centre = present_centre(element);
   std::ostringstream message;
   message << name_ << ": element " << element << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
           << ") m has collapsed or turned inside out; choose a smaller time step, a finer mesh there or a smaller load";

@@ -126,7 +126,8 @@ public:
   {
     return elements_->state_of(element, displacement_of_stress_.begin());
   }
-  Stress average_stress() const; ///< volume average over the body, whatever the share
+  Stress average_stress() const;                                   ///< volume average over the body, whatever the share
+  std::array<double, 3> present_centre(std::size_t element) const; ///< mean of its nodes' places [m]
   /// Factor of an element's inertia; 1 where it is not scaled.
   double mass_factor(const std::size_t element) const { return mass_factor_.empty() ? 1 : mass_factor_[element]; }
   const MassScaling &mass_scaling() const { return mass_scaling_; }

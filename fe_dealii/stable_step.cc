@@ -1,10 +1,12 @@
 #include "fe_dealii/stable_step.h"
 
 #include "fe_dealii/element/largest_eigenvalue.h"
+#include "fe_dealii/error.h"
 #include "fe_dealii/moving_body.h"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 namespace bergamo::fe
@@ -18,6 +20,19 @@ StableStep stable_step(const MovingBody &body)
     eigenvalue[e] = largest_eigenvalue(body.elements(), e, body.displacement().begin()) / body.mass_factor(e);
   const auto largest = std::max_element(eigenvalue.begin(), eigenvalue.end());
   return {2 / std::sqrt(*largest), *largest, std::size_t(largest - eigenvalue.begin())};
+}
+
+void require_stable(const MovingBody &body, const double time_step)
+{
+  const StableStep stable = stable_step(body);
+  if (time_step <= stable.time_step)
+    return;
+  const std::array<double, 3> place = body.present_centre(stable.element);
+  std::ostringstream message;
+  message << "continuum: the time step of " << time_step << " s is above the stable one of " << stable.time_step
+          << " s that element " << stable.element << " at (" << place[0] << ", " << place[1] << ", " << place[2]
+          << ") m sets; choose a smaller step, larger elements there, or mass scaling";
+  throw AnalysisError(message.str());
 }
 
 } // namespace bergamo::fe

@@ -116,7 +116,7 @@ SampleFigures SampleFigures::from(const std::vector<double> &v)
 SampleRun::SampleRun(const RveParameters &p, const SampleSettings &s, std::filesystem::path sample_folder,
                      std::string text, SampleProgress &shown)
     : parameters(p), settings(s), folder(std::move(sample_folder)), parameter_text(std::move(text)), progress(shown),
-      program(p.program(s))
+      program(p.program(s)), snapshot_timer(p.snapshot_interval)
 {
 }
 
@@ -143,7 +143,7 @@ bool SampleRun::run()
     if (simulation->n_steps % 50 != 0)
       continue;
     const bool is_stopped = interrupted();
-    if (is_stopped || snapshot_is_due())
+    if (is_stopped || snapshot_timer.is_due())
       write_snapshot();
     if (is_stopped)
       return false;
@@ -308,15 +308,6 @@ void SampleRun::record_distributions(const double time)
   const double step = loading->rate() * simulation->parameters().time_step;
   next_distribution = simulation->n_steps + (s.is_strained() ? std::max<std::int64_t>(1, std::llround(spacing / step))
                                                              : 50 * parameters.row_interval);
-}
-
-bool SampleRun::snapshot_is_due()
-{
-  const auto now = Clock::now();
-  if (std::chrono::duration<double>(now - last_snapshot).count() < parameters.snapshot_interval)
-    return false;
-  last_snapshot = now;
-  return true;
 }
 
 void SampleRun::write_snapshot() const

@@ -2,6 +2,7 @@
 
 #include "dem/loading/cell_loading.h"
 #include "drivers/common/history.h"
+#include "drivers/common/snapshot_timer.h"
 #include "drivers/rve_triaxial/parameters.h"
 
 #include <atomic>
@@ -65,7 +66,6 @@ private:
   void end_stage();
   void record();
   void record_distributions(double time);
-  bool snapshot_is_due();
   std::int64_t steps_to_next_row() const;
 
   using Clock = std::chrono::steady_clock;
@@ -87,7 +87,8 @@ private:
   double first_balance = 0.;                        ///< of the energy [J]
   SampleFigures f;
   double wall_time_before = 0.; ///< spent by earlier processes [s]
-  Clock::time_point start = Clock::now(), last_snapshot = Clock::now();
+  Clock::time_point start = Clock::now();
+  SnapshotTimer snapshot_timer;
 };
 
 } // namespace bergamo::driver

@@ -45,7 +45,7 @@ std::string picture_name(const std::size_t number)
 
 FootingRun::FootingRun(const FootingParameters &p, const CommandLine &command_line, std::string text, RunFolder &f)
     : parameters(p), parameter_text(std::move(text)), folder(f), is_restart(command_line.restart),
-      progress(ProgressOptions::standard(command_line.quiet)), model(p)
+      progress(ProgressOptions::standard(command_line.quiet)), model(p), snapshot_timer(p.snapshot_interval)
 {
   if (!is_restart)
     return;
@@ -77,15 +77,6 @@ void FootingRun::write_snapshot()
   archive.commit();
 }
 
-bool FootingRun::snapshot_is_due()
-{
-  const auto now = Clock::now();
-  if (std::chrono::duration<double>(now - last_snapshot).count() < parameters.snapshot_interval)
-    return false;
-  last_snapshot = now;
-  return true;
-}
-
 bool FootingRun::run()
 {
   folder.open();
@@ -110,7 +101,7 @@ bool FootingRun::run()
     {
       progress.update(here());
       const bool stop = interrupted() && !is_last;
-      if (stop || snapshot_is_due())
+      if (stop || snapshot_timer.is_due())
         write_snapshot();
       if (stop)
         return false;

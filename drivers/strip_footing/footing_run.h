@@ -4,6 +4,7 @@
 #include "drivers/common/history.h"
 #include "drivers/common/progress.h"
 #include "drivers/common/run_folder.h"
+#include "drivers/common/snapshot_timer.h"
 #include "drivers/common/summary.h"
 #include "drivers/strip_footing/footing_model.h"
 
@@ -43,7 +44,6 @@ private:
   void sample(double time, History &history);
   void write_picture(double time);
   void write_snapshot();
-  bool snapshot_is_due();
 
   using Clock = std::chrono::steady_clock;
 
@@ -54,7 +54,8 @@ private:
   Progress progress;
   FootingModel model;
   State state;
-  Clock::time_point start = Clock::now(), last_snapshot = Clock::now();
+  Clock::time_point start = Clock::now();
+  SnapshotTimer snapshot_timer;
   std::int64_t steps_here = 0; ///< done by this process
 };
 

@@ -74,7 +74,7 @@ const char *name_of(const ModelKind kind)
 
 TriaxialRun::TriaxialRun(const TriaxialParameters &p, const CommandLine &command_line, std::string text, RunFolder &f)
     : parameters(p), parameter_text(std::move(text)), folder(f), is_restart(command_line.restart),
-      progress(ProgressOptions::standard(command_line.quiet))
+      progress(ProgressOptions::standard(command_line.quiet)), snapshot_timer(p.snapshot_interval)
 {
   if (is_restart)
   {
@@ -117,15 +117,6 @@ bool TriaxialRun::run()
   return run_loading();
 }
 
-bool TriaxialRun::snapshot_is_due()
-{
-  const auto now = Clock::now();
-  if (std::chrono::duration<double>(now - last_snapshot).count() < parameters.snapshot_interval)
-    return false;
-  last_snapshot = now;
-  return true;
-}
-
 bool TriaxialRun::run_packing()
 {
   dem::Simulation &grains = *packing->grains;
@@ -147,7 +138,7 @@ bool TriaxialRun::run_packing()
       grains.check_finite();
       progress.update(here());
       const bool stop = interrupted();
-      if (stop || snapshot_is_due())
+      if (stop || snapshot_timer.is_due())
         write_packing(folder.snapshot(), parameter_text, grains, packing->compression);
       if (stop)
         return false;
@@ -216,7 +207,7 @@ bool TriaxialRun::run_loading()
     {
       progress.update(here());
       const bool stop = interrupted() && !is_last;
-      if (stop || snapshot_is_due())
+      if (stop || snapshot_timer.is_due())
         write_loading(folder.snapshot(), parameter_text, *specimen, state);
       if (stop)
         return false;

@@ -4,6 +4,7 @@
 #include "drivers/common/history.h"
 #include "drivers/common/progress.h"
 #include "drivers/common/run_folder.h"
+#include "drivers/common/snapshot_timer.h"
 #include "drivers/common/summary.h"
 #include "drivers/two_scale_triaxial/packing_stage.h"
 #include "drivers/two_scale_triaxial/snapshot.h"
@@ -38,7 +39,6 @@ private:
   void sample(double time, const dem::Vec3 &strain, History &history);
   void write_picture(double time);
   void watch_stable_step();
-  bool snapshot_is_due();
 
   using Clock = std::chrono::steady_clock;
 
@@ -52,7 +52,8 @@ private:
   std::unique_ptr<Specimen> specimen;
   LoadingState state;
 
-  Clock::time_point start = Clock::now(), last_snapshot = Clock::now();
+  Clock::time_point start = Clock::now();
+  SnapshotTimer snapshot_timer;
   std::int64_t steps_here = 0; ///< done by this process
   double largest_overlap = 0., largest_work = 0.;
   SpecimenEnergy last_energy;

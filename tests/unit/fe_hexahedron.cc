@@ -194,6 +194,20 @@ TEST_CASE("Stable step: a safe bound on the true limit, of the order of h/c_p", 
   CHECK(step.time_step > 0.5 * crossing);
 }
 
+TEST_CASE("A time step above the stable one is refused with the element that sets it", "[fe]")
+{
+  ExplicitBody body = distorted_box(2, strong(0.2));
+  const StableStep stable = stable_step(body);
+  CHECK_NOTHROW(require_stable(body, stable.time_step));
+  CHECK_THROWS_WITH(require_stable(body, 1.001 * stable.time_step),
+                    Catch::Contains("above the stable one") &&
+                        Catch::Contains("element " + std::to_string(stable.element) + " at ("));
+  // A place is that of the present displacement.
+  for (std::size_t node = 0; node < body.n_nodes(); ++node)
+    body.displacement()[3 * node] = 1000;
+  CHECK(body.present_centre(stable.element)[0] > 999);
+}
+
 TEST_CASE("Stable step: 0.95 of it stays bounded, 1.1 of the true limit diverges", "[fe]")
 {
   const auto growth = [](const bool beyond)
