@@ -36,8 +36,8 @@ fe::ExplicitBody make_body(const SolidCase &what, const int n_along)
   const auto n = static_cast<unsigned int>(n_along);
   dealii::Triangulation<3> mesh;
   fe::make_box({.subdivisions = {n, n, n}}, mesh);
-  return fe::ExplicitBody(
-      mesh, {.material = what.material, .degree = what.degree, .initial_pressure = what.initial_pressure});
+  return fe::ExplicitBody(mesh,
+                          {.material = what.material, .degree = what.degree, .initial_stress = what.initial_stress()});
 }
 
 } // namespace

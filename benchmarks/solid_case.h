@@ -19,6 +19,10 @@ struct SolidCase
   double strain_per_step = 0.;  ///< most compressive principal strain of one step
   int n_first_steps = 5;        ///< before any time is taken: to flow, and to bring the data to the core
 
+  fe::InitialStress initial_stress() const
+  {
+    return initial_pressure > 0. ? fe::uniform_pressure(initial_pressure) : fe::InitialStress();
+  }
   int nodes_per_element() const { return degree == 1 ? 8 : 27; } ///< and as many quadrature points
   bool is_of_small_strain() const
   {
