@@ -12,9 +12,8 @@ namespace bergamo::fe
 /// Looks for what a mesh from elsewhere may suffer from. Throws ParameterError, with the place, for
 /// - cells that are no hexahedra, or no cells at all;
 /// - cells turned inside out or flat at a corner;
-/// - vertices that coincide without being joined, closer than a thousandth of the shortest edge: a seam, along which
-/// the
-///   body would fall apart without a word;
+/// - vertices closer than a thousandth of the shortest edge that are not joined: a seam, along which the body would
+/// part;
 /// - pieces that share no face. An edge or a corner alone is a hinge that no solid has.
 void check_mesh(const dealii::Triangulation<3, 3> &triangulation);
 

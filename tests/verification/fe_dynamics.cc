@@ -6,8 +6,9 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
+#include "tests/threads.h"
+
 #include <catch2/catch.hpp>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -197,17 +198,15 @@ TEST_CASE("The energy balance closes to rounding, with plastic flow, damping, gr
 
 TEST_CASE("The same bits on 1, 2 and 3 threads", "[fe]")
 {
-  const int threads = omp_get_max_threads();
   std::vector<ExplicitBody> bodies;
   for (int n = 1; n <= 3; ++n)
   {
-    omp_set_num_threads(n);
+    const Threads team(n);
     bodies.push_back(Everything::make());
     const double dt = 0.8 * stable_step(bodies.back()).time_step;
     for (int step = 0; step < 300; ++step)
       Everything::step(bodies.back(), step, dt);
   }
-  omp_set_num_threads(threads);
   CHECK(same_bits(bodies[0], bodies[1]));
   CHECK(same_bits(bodies[0], bodies[2]));
 }

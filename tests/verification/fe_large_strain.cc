@@ -9,8 +9,9 @@
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include "tests/threads.h"
+
 #include <catch2/catch.hpp>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -216,7 +217,7 @@ TEST_CASE("large strain: the same bits on any number of threads", "[fe]")
   std::vector<double> first;
   for (const int threads : {1, 2, 3, 8})
   {
-    omp_set_num_threads(threads);
+    const Threads team(threads);
     ExplicitBody body = box(Ogden(OgdenParameters()), 1, {9, 7, 6}, 0.2);
     deform(body, {{{1.2, 0.1, 0}, {0, 0.9, 0}, {0, 0, 0.95}}});
     const double dt = 0.5 * stable_step(body).time_step;
@@ -227,7 +228,6 @@ TEST_CASE("large strain: the same bits on any number of threads", "[fe]")
       first = now;
     CHECK(std::memcmp(first.data(), now.data(), now.size() * sizeof(double)) == 0);
   }
-  omp_set_num_threads(omp_get_num_procs());
 }
 
 TEST_CASE("large strain: an element that turns inside out ends the run with its place", "[fe]")
