@@ -1,6 +1,7 @@
 #include "fe_dealii/mesh/mesh_file.h"
 
 #include "fe_dealii/error.h"
+#include "fe_dealii/mesh/mesh_check.h"
 
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
@@ -115,6 +116,15 @@ void read_mesh(const std::filesystem::path &path, dealii::Triangulation<3, 3> &t
   }
   if (unit != 1)
     dealii::GridTools::scale(unit, triangulation);
+  try
+  {
+    check_mesh(triangulation);
+  }
+  catch (const ParameterError &error)
+  {
+    triangulation.clear();
+    throw ParameterError(path.string() + ": " + error.what());
+  }
 }
 
 } // namespace bergamo::fe
