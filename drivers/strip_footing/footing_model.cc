@@ -56,10 +56,9 @@ fe::ExplicitBody make_ground(const FootingParameters &p)
 /// Downwards; from rest to a steady speed, and the settlement at the end.
 fe::TimeFunction velocity_of(const FootingParameters &p)
 {
-  const double ramp = p.ramp * p.loading_time;
   std::ostringstream text;
   text.precision(17);
-  text << -p.settlement / (p.loading_time - 0.5 * ramp) << "*min(t/" << ramp << ", 1)";
+  text << -p.speed() << "*min(t/" << p.ramp_time() << ", 1)";
   return fe::TimeFunction(text.str());
 }
 

@@ -5,7 +5,6 @@
 #include "dem/io/pvd.h"
 #include "drivers/common/atomic_file.h"
 #include "drivers/common/interrupt.h"
-#include "drivers/strip_footing/bearing_capacity.h"
 #include "fe_dealii/output.h"
 
 #include <omp.h>
@@ -134,11 +133,8 @@ void FootingRun::sample(const double time, History &history)
                         " s; choose a smaller Output/step share");
   const fe::BodyEnergy e = body.energy();
   state.largest_residual = std::max(state.largest_residual, std::abs(e.residual()));
-  const double ramp = parameters.ramp * parameters.loading_time;
-  const double speed = parameters.settlement / (parameters.loading_time - 0.5 * ramp);
-  const double settlement = speed * (time < ramp ? 0.5 * time * time / ramp : time - 0.5 * ramp);
   const double row[] = {time,
-                        settlement,
+                        parameters.settlement_at(time),
                         model.footing_pressure(),
                         e.kinetic,
                         e.elastic,

@@ -42,6 +42,12 @@ struct FootingParameters
   /// Edge of an element [m]. The settlement falls from that of the last node held to nothing over the element beside
   /// the footing, so that half of that element counts as covered (as in Itasca's FLAC).
   double element_size() const { return 0.5 * width / (elements_across + 0.5); }
+  double ramp_time() const { return ramp * loading_time; }                         ///< [s]
+  double speed() const { return settlement / (loading_time - 0.5 * ramp_time()); } ///< after the ramp [m/s]
+  double settlement_at(const double time) const                                    ///< [s] to [m]
+  {
+    return speed() * (time < ramp_time() ? 0.5 * time * time / ramp_time() : time - 0.5 * ramp_time());
+  }
   double limit_pressure() const; ///< in closed form, see bearing_factors(); cohesion, surcharge, weight [Pa]
 };
 

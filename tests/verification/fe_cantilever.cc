@@ -93,7 +93,7 @@ Errors errors_of(const unsigned int degree, const unsigned int n_depth, const do
   }
   dealii::Vector<double> force(3 * body.n_nodes());
   dealii::VectorTools::create_boundary_right_hand_side(body.dof_handler(), dealii::QGauss<2>(4), Shear(), force, {1});
-  body.displacement() = equilibrium(body, force, prescribed);
+  bring_to_rest(body, force, prescribed);
   body.compute_internal_force();
 
   Errors errors{};
