@@ -5,13 +5,13 @@ namespace bergamo::benchmark
 
 std::size_t n_touching(const dem::Simulation &simulation)
 {
-  return simulation.pairs.n_touching();
+  return simulation.contacts.n_touching();
 }
 
 double mean_relative_overlap(const dem::Simulation &simulation)
 {
   double overlaps = 0., distances = 0.;
-  for (const dem::TouchingContact &contact : simulation.pairs.touching(simulation.particles))
+  for (const dem::TouchingContact &contact : simulation.contacts.touching(simulation.particles))
   {
     overlaps += contact.state.overlap;
     distances += contact.branch.norm();
@@ -23,7 +23,7 @@ std::vector<Phase> phase_times(const dem::Simulation &simulation)
 {
   const dem::PhaseTimes &t = simulation.times;
   return {{"neighbours", t.neighbours}, {"contacts", t.contacts}, {"screening", t.screening},
-          {"searches", t.searches},     {"walls", t.walls},       {"summation", t.summation},
+          {"searches", t.searches},     {"summation", t.summation},
           {"motion", t.motion}};
 }
 

@@ -66,10 +66,10 @@ void add_walls(dem::Particles &particles, const Shape &shape, const double botto
 dem::SimulationParameters parameters_of(const HourglassRecipe &recipe)
 {
   dem::SimulationParameters parameters;
-  parameters.grain.young_modulus = parameters.wall.young_modulus = recipe.young_modulus;
-  parameters.wall_friction = parameters.friction;
+  parameters.grain().young_modulus = parameters.wall().young_modulus = recipe.young_modulus;
+  parameters.with_walls().friction = parameters.between_grains().friction;
   parameters.gravity = Vec3(0., 0., -9.81);
-  parameters.damping_ratio = 0.5;
+  parameters.set_damping(0.5);
   parameters.verlet_distance = 0.2;
   // A tenth of the period of the smallest grain on a stiff contact, which the log shows.
   parameters.time_step = 8e-6 * std::sqrt(1e7 / recipe.young_modulus);
@@ -143,7 +143,7 @@ FlowFigures flow_figures(const dem::Simulation &simulation)
     below += p.position[i][2] < 0.;
   }
   double ends = 0.;
-  for (const auto &contact : simulation.pairs.touching(p))
+  for (const auto &contact : simulation.contacts.touching(p))
     ends += !p.is_fixed(contact.first) + !p.is_fixed(contact.second);
   figures.coordination_number = ends / figures.n_grains;
   figures.mean_speed = speed / figures.n_grains;

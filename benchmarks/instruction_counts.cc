@@ -8,7 +8,7 @@
 #include "dem/contact/newton_search.h"
 #include "dem/contact/pose_lanes.h"
 #include "dem/force/follow.h"
-#include "dem/force/pair_contacts.h"
+#include "dem/force/contacts.h"
 #include "dem/force/search_contacts.h"
 #include "dem/motion/leapfrog.h"
 #include "dem/packing/distribution.h"
@@ -60,7 +60,7 @@ void set_in_motion(Particles &p, Random &random)
 {
   for (std::size_t i = 0; i < p.size(); ++i)
   {
-    p.velocity[i] = random(0., 1e-3) * random.direction();
+    p.velocity[i] = p.drift_velocity[i] = random(0., 1e-3) * random.direction();
     p.angular_velocity[i] = random(0., 1.) * random.direction();
     p.angular_momentum[i] =
         p.orientation[i] * (p.orientation[i].conjugate() * p.angular_velocity[i]).cwiseProduct(p.inertia[i]);
@@ -120,14 +120,20 @@ public:
   {
     begun.reserve(n_pairs);
     for (int pair = 0; pair < n_pairs; ++pair)
-      searches.push_back({pair, 2 * pair, 2 * pair + 1, own_image, PairContacts::apart});
+      searches.push_back({pair, 2 * pair, 2 * pair + 1, 2 * pair, 2 * pair + 1, own_image, ContactSet<GrainGrain>::apart});
   }
 
   void search_all()
   {
-    const SearchContext context{pairs.particles, law, parameters, time_step, store, direction};
+    const ContactScene scene{pairs.particles, no_walls, law, parameters, time_step};
+    const SearchContext<GrainGrain> context{scene, store, direction};
     for (int pack = 0; pack < n_packs; ++pack)
-      search_contacts(searches, pack * pack_width, (pack + 1) * pack_width, context, losses, begun);
+    {
+      const std::size_t n_begun = begun.size();
+      search_contacts({&searches[pack * pack_width], pack_width}, context, losses, begun);
+      for (std::size_t k = n_begun; k < begun.size(); ++k)
+        begun[k].search += pack * pack_width;
+    }
   }
 
   /// Gives a slot to every contact, in the order of the pairs.
@@ -137,7 +143,7 @@ public:
     if (begun.size() != n_pairs)
       std::abort();
     store.resize(n_pairs);
-    for (const BegunContact &c : begun)
+    for (const BegunContact<GrainGrain> &c : begun)
     {
       ContactSearch &s = searches[c.search];
       s.slot = s.pair;
@@ -147,10 +153,11 @@ public:
   }
 
   TouchingPairs pairs;
+  const std::vector<PlaneWall> no_walls;
   ContactStore<ContactState> store;
   std::vector<Eigen::Vector3f> direction;
   std::vector<ContactSearch> searches;
-  std::vector<BegunContact> begun;
+  std::vector<BegunContact<GrainGrain>> begun;
   ContactLosses losses;
 };
 
@@ -238,7 +245,7 @@ Pose<Pack> packed_pose(const Particles &p, const int pack, const int body)
   for (int lane = 0; lane < pack_width; ++lane)
   {
     const int i = 2 * (pack * pack_width + lane) + body;
-    const BodyPose alone = make_pose(p.shape[i], p.position[i], p.orientation[i]);
+    const BodyPose alone = make_pose(p.parts.shape[i], p.position[i], p.orientation[i]);
     const auto *source = reinterpret_cast<const double *>(&alone);
     for (std::size_t field = 0; field < sizeof(BodyPose) / sizeof(double); ++field)
       numbers[field * pack_width + lane] = source[field];
@@ -274,7 +281,7 @@ int move(const Grain grain, const int passes, Random &random)
 {
   Particles p = lone_grains(grain, random);
   for (int pass = 0; pass < passes; ++pass)
-    if (!advance(p, {gravity}, time_step))
+    if (!advance(p, {gravity}, time_step, time_step))
       std::abort();
   return n_grains;
 }

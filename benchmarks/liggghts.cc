@@ -62,7 +62,7 @@ std::string data_text(const dem::Simulation &packing)
          << "xyz"[d] << "hi\n";
   text << "\nAtoms\n\n"; // id, type, diameter, density, place
   for (std::size_t i = 0; i < particles.size(); ++i)
-    text << i + 1 << " 1 " << 2. * particles.bounding_radius[i] << ' ' << packing.parameters().grain.density << ' '
+    text << i + 1 << " 1 " << 2. * particles.bounding_radius[i] << ' ' << packing.parameters().grain().density << ' '
          << particles.position[i].x() << ' ' << particles.position[i].y() << ' ' << particles.position[i].z() << '\n';
   return text.str();
 }
@@ -157,8 +157,8 @@ std::string Liggghts::script(const int n_steps, const double skin) const
   // Its dashpot knows a coefficient of restitution only, bounded from below: 0.1 damps like a ratio of about 0.5. The
   // force of a contact at rest does not depend on it, nor does the time of a step.
   constexpr double restitution = 0.1;
-  const dem::Material &grain = parameters.grain, &wall = parameters.wall;
-  const double friction = parameters.friction, wall_friction = parameters.wall_friction;
+  const dem::Material &grain = parameters.grain(), &wall = parameters.wall();
+  const double friction = parameters.between_grains().friction, wall_friction = parameters.with_walls().friction;
 
   std::ostringstream text;
   text.precision(std::numeric_limits<double>::max_digits10);

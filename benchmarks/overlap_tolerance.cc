@@ -38,15 +38,15 @@ Outcome compress(const dem::Simulation &packing, const double tolerance, const i
   simulation.change(parameters);
   const double height = simulation.walls[5].point[2] - simulation.walls[4].point[2];
   simulation.walls[5].velocity = dem::Vec3(0., 0., -strain_rate * height);
-  const auto n_searches = simulation.pairs.n_searches;
+  const auto n_searches = simulation.contacts.n_searches();
   const auto start = std::chrono::steady_clock::now();
   for (int n = 0; n < n_steps; ++n)
     simulation.step();
   Outcome outcome;
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.searches =
-      static_cast<double>(simulation.pairs.n_searches - n_searches) / n_steps / simulation.pairs.n_touching();
-  for (const dem::TouchingContact &c : simulation.pairs.touching(simulation.particles))
+      static_cast<double>(simulation.contacts.n_searches() - n_searches) / n_steps / simulation.contacts.n_touching();
+  for (const dem::TouchingContact &c : simulation.contacts.touching(simulation.particles))
     outcome.force[{c.first, c.second}] = c.state.forces.on_body1(c.state.normal);
   return outcome;
 }

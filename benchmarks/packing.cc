@@ -2,7 +2,7 @@
 // tightened to 0.55, beside the figures of the dissertation (3.4.4). `packing --help`.
 
 #include "benchmarks/program.h"
-#include "dem/io/whole_file.h"
+#include "dem/core/whole_file.h"
 #include "dem/measure/histogram.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/tightening.h"

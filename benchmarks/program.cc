@@ -1,7 +1,7 @@
 #include "benchmarks/program.h"
 
 #include "dem/core/error.h"
-#include "dem/io/whole_file.h"
+#include "dem/core/whole_file.h"
 
 #include <iostream>
 #include <memory>

@@ -142,7 +142,7 @@ nlohmann::json size(Options options)
     for (int repeat = 0; repeat < (options.n_repeats ? options.n_repeats : 5); ++repeat)
       cost.push_back(1e9 * time_steps(*packing, steps).seconds / steps / packing->particles.size());
     const Spread s = spread(cost);
-    const double contacts = 2. * packing->pairs.n_touching() / packing->particles.size();
+    const double contacts = 2. * packing->contacts.n_touching() / packing->particles.size();
     std::cout << std::setw(9) << packing->particles.size() << std::setw(19) << std::setprecision(2) << contacts
               << std::setw(28) << std::setprecision(0) << s.least << std::setw(7) << s.median << std::setw(6) << s.most
               << std::setw(16) << bytes << std::endl;

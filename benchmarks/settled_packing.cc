@@ -65,7 +65,7 @@ dem::Particles place_grains(const PackingRecipe &recipe, dem::Box &box)
 double solid_volume(const dem::Simulation &simulation)
 {
   double sum = 0.;
-  for (const dem::Superquadric &shape : simulation.particles.shape)
+  for (const dem::Superquadric &shape : simulation.particles.parts.shape)
     sum += dem::volume(shape);
   return sum;
 }
@@ -78,15 +78,15 @@ std::unique_ptr<dem::Simulation> contract(const PackingRecipe &recipe)
   dem::Particles particles = place_grains(recipe, box);
   const dem::Vec3 centre = 0.5 * (box.low + box.high);
   dem::SimulationParameters parameters = sand_parameters();
-  parameters.friction = 0.;
-  parameters.damping_ratio = packing_damping;
+  parameters.between_grains().friction = 0.;
+  parameters.set_damping(packing_damping);
   parameters.time_step = contraction_step;
   parameters.verlet_distance = contraction_verlet;
   parameters.contact.overlap_tolerance = 0.1;
 
   const double dense = recipe.kind == GrainKind::spheres ? 0.60 : 0.64; // shortly before the grains jam
   const double speed =
-      std::sqrt(contraction_share * press_factor * recipe.pressure / (dense * parameters.grain.density));
+      std::sqrt(contraction_share * press_factor * recipe.pressure / (dense * parameters.grain().density));
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.velocity[i] = speed / centre.x() * (centre - particles.position[i]);
   auto simulation = std::make_unique<dem::Simulation>(parameters, std::move(particles), dem::box_walls(box));
@@ -142,7 +142,7 @@ std::unique_ptr<dem::Simulation> widened(const dem::Simulation &pressed, const d
   parameters.verlet_distance = sand_parameters().verlet_distance;
   dem::Particles particles;
   for (std::size_t i = 0; i < pressed.particles.size(); ++i)
-    particles.add(pressed.particles.shape[i], parameters.grain.density, (1. + strain) * pressed.particles.position[i],
+    particles.add(pressed.particles.parts.shape[i], parameters.grain().density, (1. + strain) * pressed.particles.position[i],
                   pressed.particles.orientation[i]);
   dem::Box box = dem::box_between(pressed.walls);
   box.low *= 1. + strain;
@@ -225,7 +225,7 @@ std::unique_ptr<dem::Simulation> settle_packing(const PackingRecipe &recipe,
   log(describe("released", *simulation));
 
   dem::SimulationParameters parameters = sand_parameters();
-  parameters.damping_ratio = packing_damping;
+  parameters.set_damping(packing_damping);
   parameters.time_step = simulation->parameters().time_step;
   parameters.contact.overlap_tolerance = 1e-3;
   simulation->change(parameters);

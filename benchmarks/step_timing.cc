@@ -11,7 +11,7 @@ StepTiming time_steps(const dem::Simulation &packing, const int n_steps)
   dem::Simulation simulation = packing;
   simulation.step(); // brings the copy into the caches
   const std::vector<Phase> before = phase_times(simulation);
-  const auto n_searches = simulation.pairs.n_searches, n_rebuilds = simulation.n_rebuilds;
+  const auto n_searches = simulation.contacts.n_searches(), n_rebuilds = simulation.n_rebuilds();
 
   const auto start = std::chrono::steady_clock::now();
   for (int n = 0; n < n_steps; ++n)
@@ -21,10 +21,10 @@ StepTiming time_steps(const dem::Simulation &packing, const int n_steps)
   simulation.check_finite();
   StepTiming timing{n_steps,
                     seconds,
-                    simulation.pairs.list.size(),
+                    simulation.contacts.n_candidates(),
                     n_touching(simulation),
-                    simulation.pairs.n_searches - n_searches,
-                    simulation.n_rebuilds - n_rebuilds,
+                    simulation.contacts.n_searches() - n_searches,
+                    simulation.n_rebuilds() - n_rebuilds,
                     phase_times(simulation)};
   for (std::size_t k = 0; k < before.size(); ++k)
     timing.phases[k].seconds -= before[k].seconds;

@@ -1,66 +1,83 @@
 #pragma once
 
-#include "dem/force/pair_contacts.h"
-#include "dem/force/wall_contacts.h"
-#include "dem/measure/energy.h"
-#include "dem/periodic/cell_work.h"
-#include "dem/state/material.h"
+#include "dem/account/accounts.h"
+#include "dem/account/energy.h"
+#include "dem/core/phase_times.h"
+#include "dem/divergence.h"
+#include "dem/force/contacts.h"
+#include "dem/neighbour/neighbour_watch.h"
+#include "dem/simulation_parameters.h"
+#include "dem/state/id_index.h"
 #include "dem/state/particles.h"
 #include "dem/state/wall.h"
 
 #include <cstdint>
-#include <memory>
-#include <utility>
 #include <vector>
 
 namespace bergamo::dem
 {
 
-/// Physics and numerics of a simulation.
-struct SimulationParameters
-{
-  Material grain;
-  Material wall;
-  double friction = 0.24;
-  double wall_friction = 0.;
-  double damping_ratio = 0.9;   ///< dashpot, share of critical damping
-  double relaxation_time = 0.;  ///< A of the viscoelastic law, beside the dashpot [s]
-  Vec3 gravity = Vec3::Zero();  ///< [m/s^2]
-  double time_step = 2.5e-7;    ///< [s]
-  double verlet_distance = 0.1; ///< over the mean bounding radius
-  int sort_interval = 100;      ///< renewals of the neighbours between two sorts of the grains by place
-  ContactParameters contact;
+class StateReader;
 
-  /// Throws ConfigError for a value out of its range.
-  void validate() const;
+/// What left a simulation or came into it.
+struct Exchange
+{
+  std::int64_t n_particles = 0;
+  double mass = 0.;                   ///< [kg]
+  Vec3 momentum = Vec3::Zero();       ///< at the half step before [kg m/s]
+  std::vector<std::int64_t> ids = {}; ///< in the order of the arrays
 };
 
-/// Grains and walls, stepped by leapfrog in the order of Wellmann's fig. 3.12:
-/// neighbours when needed, contacts, forces, motion. One step is compute_forces() and then integrate(); forces from
-/// elsewhere are put into particles.external_force in between. The same bits on any number of threads.
+/// Grains and walls, stepped by leapfrog in the order of Wellmann's fig. 3.12. The protocol of a step is that of every
+/// mover: compute_forces(), kick(), then what is to be read of the step, then drift(). Reading changes nothing, forces
+/// may be asked for as often as one likes; forces from elsewhere are put into particles.external_force before kick().
+/// Velocities, of walls too, may be set between steps or before kick(): they count for the drift to come. The same bits
+/// on any number of threads and after any restart.
 class Simulation
 {
 public:
   /// @param particles at least one; a periodic cell of theirs must be at least two ranges of contacts wide, and has
-  /// neither walls nor gravity; @param walls their velocities may be changed between steps
+  /// neither walls nor gravity. Throws ConfigError for whatever cannot run.
   Simulation(const SimulationParameters &parameters, Particles particles, std::vector<PlaneWall> walls);
 
-  void compute_forces(); ///< contacts and their resultants at the present step; particles.cell.acceleration may follow
-  void integrate();      ///< kick, turn and drift to the next step; throws RunError as check_finite() does
+  /// Goes on from a state that was stored. Throws RunError where the archive does not hold one.
+  /// @param parameters of the run; what change() may have altered is taken from the archive
+  Simulation(const SimulationParameters &parameters, StateReader &reader);
 
+  void compute_forces(); ///< contacts and their resultants at the present step; once a step, then nothing changes
+  void kick();           ///< fixes the forces of the step; particles.cell.acceleration has been set by now
+  void drift();          ///< velocities to the next half step, places to the next step; throws RunError on divergence
+
+  void integrate()
+  {
+    kick();
+    drift();
+  }
   void step()
   {
     compute_forces();
     integrate();
   }
 
-  /// Goes on with other parameters: friction, time step, contact search. Materials and Verlet distance stay.
+  /// Goes on with other parameters, all but the elastic materials; between steps. Throws ConfigError for a material
+  /// that differs.
   void change(const SimulationParameters &parameters);
 
+  /// Between steps: removes a wall, or adds one; later walls move up by one.
   void remove_wall(std::int32_t index);
+  void add_wall(const PlaneWall &wall);
+
+  /// Removes particles at the present step, of which the forces are computed first if they were not. Ids of the others
+  /// stay, and so does the history of their contacts; the energy taken out is booked.
+  /// @param indices places in the arrays, in any order
+  Exchange remove(const std::vector<std::int32_t> &indices);
+
+  /// Adds particles between steps; they get new ids, in their order. What they bring in is booked.
+  /// Throws ConfigError as the constructor does. @param added without a cell of its own
+  Exchange add(const Particles &added);
 
   /// Searches every contact anew at the next step, e.g. after the grains' weights have been changed.
-  void refresh_contacts();
+  void refresh_contacts() { contacts.refresh(particles); }
 
   /// Stops all grains where they are.
   void rest();
@@ -71,11 +88,11 @@ public:
   /// Sorts the grains by place for locality; ids keep who is who.
   void sort_by_place();
 
-  /// Energies at the present step; to be called between compute_forces() and integrate().
+  /// Energies at the present step: between compute_forces() and drift().
   GrainEnergy energy() const;
 
   /// Principal mean stresses of the periodic cell, tension positive (Wellmann 5.3) [Pa]. After compute_forces().
-  Vec3 cell_stress() const { return pairs.virial().branch / particles.cell.volume(); }
+  Vec3 cell_stress() const { return contacts.virial().branch / particles.cell.volume(); }
 
   /// See dem/motion/stable_step.h [s].
   double stable_time_step() const;
@@ -84,55 +101,57 @@ public:
   void check_finite() const;
 
   const SimulationParameters &parameters() const { return p; }
+  std::int64_t n_rebuilds() const { return n_renewals; } ///< renewals of the neighbours since the start
+  std::int32_t index_of(const std::int64_t id) const { return index(id); } ///< place of a grain in the arrays
+  bool has(const std::int64_t id) const { return index.has(id); }
 
   Particles particles;
   std::vector<PlaneWall> walls;
-  PairContacts pairs;
-  WallContacts wall_contacts;
-  std::vector<std::int32_t> index_of_id; ///< place of a grain in the arrays by its id
-  double time = 0.;                      ///< [s]
+  Contacts contacts;
+  double time = 0.; ///< [s]
   std::int64_t n_steps = 0;
-  std::int64_t n_rebuilds = 0;
   PhaseTimes times;
 
-  /// What a restart needs beyond the public state; dem/io/snapshot stores it.
-  struct Hidden
+  /// All that a step depends on, by name: snapshot and hash follow from it. See dem/core/state.h.
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
   {
-    double verlet_distance = 0.; ///< [m]
-    double look_at_motion = 0.;  ///< particles.largest_motion below which no grain can have left its neighbours [m]
-    std::int64_t n_rebuilds_when_sorted = 0;
-    std::vector<Vec3> position_when_built;
-    std::vector<double> wall_motion_when_built;
-    double start_potential = 0.;           ///< of gravity when the accounts were opened [J]
-    double removed_wall_work = 0.;         ///< done since then by walls that were removed [J]
-    Vec3 edges_when_built = Vec3::Zero();  ///< of the periodic cell [m]
-    CellWork cell_work;                    ///< since then
-    std::vector<double> external_work;     ///< done on each grain since then, or empty [J]
-    std::vector<Vec3> last_external_force; ///< [N], or empty
-  };
-  const Hidden &hidden() const { return h; }
-
-  /// A simulation without grains, to be filled by dem/io/snapshot: every public member, then restore().
-  static std::unique_ptr<Simulation> empty(const SimulationParameters &parameters);
-  void restore(Hidden hidden) { h = std::move(hidden); }
+    visit("parameters", self.p);
+    visit("particles", self.particles);
+    visit("walls", self.walls);
+    visit("contacts", self.contacts);
+    visit("watch", self.watch);
+    visit("accounts", self.accounts);
+    visit("time", self.time);
+    visit("n_steps", self.n_steps);
+    visit("last_step", self.last_step);
+    visit("forces_are_known", self.forces_are_known);
+    visit("n_renewals", self.n_renewals);
+    visit("n_renewals_when_sorted", self.n_renewals_when_sorted);
+    visit("next_id", self.next_id);
+  }
 
 private:
-  bool grains_left_their_neighbours();
-  double contact_range() const;
-  void rebuild_neighbours();
-  void book_external_work();
+  Instant now() const { return {time, n_steps}; }
+  StepLengths steps() const { return {last_step, 0.5 * (last_step + p.time_step)}; }
+  void set_range();
   void check_cell() const;
-  void return_to_cell();
-  void sum_contact_forces();
-  [[noreturn]] void report_divergence() const;
-  [[noreturn]] void throw_diverged(std::size_t i, const char *trouble) const;
-  double gravity_potential() const;
-
-  explicit Simulation(const SimulationParameters &parameters);
+  void renew_neighbours();
+  void move_walls(double drift);
+  void take_order(const std::vector<std::int32_t> &order);
+  double kinetic_energy_of(std::size_t i) const;
 
   SimulationParameters p;
-  ContactLaw pair_law, wall_law;
-  Hidden h;
+  std::vector<ContactLaw> laws; // by pair of materials
+  NeighbourWatch watch;
+  Accounts accounts;
+  IdIndex index;
+  double last_step = 0.; // the drift that led here [s]
+  bool forces_are_known = false;
+  std::int64_t n_renewals = 0, n_renewals_when_sorted = 0, next_id = 0;
 };
+
+/// Hash of all that a step depends on.
+std::uint64_t state_hash(const Simulation &simulation);
 
 } // namespace bergamo::dem

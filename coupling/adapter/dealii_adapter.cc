@@ -66,7 +66,7 @@ bool find_in_cell(const Cell &cell, const dem::Vec3 &x, dealii::Point<3> &unit)
 } // namespace
 
 Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::int64_t> id,
-                     const std::span<const dem::Vec3> position, const std::span<const dem::Superquadric> shape)
+                     const std::span<const dem::Vec3> position, const std::span<const double> volume)
 {
   if (body.elements().nodes_per_element() != 8)
     throw std::invalid_argument("grains overlap a continuum with elements of " +
@@ -103,7 +103,7 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
       }
       overlap.shape_offset.push_back(overlap.shape_node.size());
       overlap.particle_id.push_back(id[i]);
-      overlap.particle_volume.push_back(dem::volume(shape[i]));
+      overlap.particle_volume.push_back(volume[i]);
       overlap.reference_position.push_back(position[i]);
       coupled_cells.emplace(box.element, box.cell);
       break;

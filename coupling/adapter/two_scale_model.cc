@@ -31,7 +31,7 @@ void TwoScaleModel::join(const CouplingParameters &parameters, const std::span<c
   std::vector<dem::Vec3> reference(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)
     reference[i] = reference_by_id[p.id[i]];
-  Overlap overlap = make_overlap(*body_, p.id, reference, p.shape);
+  Overlap overlap = make_overlap(*body_, p.id, reference, p.volume);
 
   std::vector<double> node_weight;
   for (const int node : overlap.nodes)
@@ -40,7 +40,7 @@ void TwoScaleModel::join(const CouplingParameters &parameters, const std::span<c
   bool has_changed = false; // a restarted run has its weights already, and must not search its contacts anew
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
   {
-    double &w = p.weight[grains_->index_of_id[overlap.particle_id[k]]];
+    double &w = p.weight[grains_->index_of(overlap.particle_id[k])];
     has_changed = has_changed || w != weight[k];
     w = weight[k];
   }
@@ -71,11 +71,11 @@ void TwoScaleModel::compute_forces()
   const Overlap &overlap = coupling_->overlap();
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
     particle_displacement_[k] =
-        p.position[grains_->index_of_id[overlap.particle_id[k]]] - overlap.reference_position[k];
+        p.position[grains_->index_of(overlap.particle_id[k])] - overlap.reference_position[k];
   penalty_state_ = coupling_->compute(particle_displacement_, view(std::as_const(*body_).displacement()),
                                       particle_force_, view(body_->external_force()));
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-    p.external_force[grains_->index_of_id[overlap.particle_id[k]]] = particle_force_[k];
+    p.external_force[grains_->index_of(overlap.particle_id[k])] = particle_force_[k];
 }
 
 void TwoScaleModel::kick()
@@ -105,7 +105,7 @@ StableSteps TwoScaleModel::stable_steps()
     std::vector<double> mass;
     for (const std::int64_t id : coupling_->overlap().particle_id)
     {
-      const auto i = grains_->index_of_id[id];
+      const auto i = grains_->index_of(id);
       mass.push_back(grains_->particles.weight[i] * grains_->particles.mass[i]);
     }
     steps.coupling = coupling_->stable_time_step({mass, view(std::as_const(*body_).mass()), {}});

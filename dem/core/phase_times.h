@@ -12,7 +12,6 @@ struct PhaseTimes
   double contacts = 0.;   ///< following the touching contacts
   double screening = 0.;  ///< pairs apart
   double searches = 0.;
-  double walls = 0.;
   double summation = 0.;
   double motion = 0.;
 };

@@ -31,9 +31,9 @@ constexpr std::size_t slots_per_chunk = 512;
 /// Whose contact a slot holds.
 struct SlotOwner
 {
-  std::int32_t pair;          ///< of the Verlet list
-  std::int32_t first, second; ///< grains
-  Image image = own_image;    ///< of the second grain
+  std::int32_t pair;          ///< of the candidates
+  std::int32_t first, second; ///< particles; the second may be a wall
+  Image image = own_image;    ///< of the second
 };
 
 /// Touching contacts in blocks of one pack each: lane k of block b is slot b * pack_width + k. A slot keeps its contact
@@ -163,10 +163,24 @@ public:
     }
   }
 
+  /// All that a step depends on; see dem/core/state.h. Places of a snapshot may come from packs of another width.
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    std::vector<State<double>> numbers = self.states();
+    visit("pair", self.pair);
+    visit("first", self.first);
+    visit("second", self.second);
+    visit("image", self.image);
+    visit("state", numbers);
+    if constexpr (Visit::is_reading)
+      self.restore(numbers);
+  }
+
   std::vector<State<Pack>> blocks;
-  std::vector<std::int32_t> pair;          ///< of the Verlet list, by slot; free_slot where unused
-  std::vector<std::int32_t> first, second; ///< grains by slot
-  std::vector<Image> image;                ///< of the second grain, by slot
+  std::vector<std::int32_t> pair;          ///< of the candidates, by slot; free_slot where unused
+  std::vector<std::int32_t> first, second; ///< particles by slot; the second may be a wall
+  std::vector<Image> image;                ///< of the second, by slot
 
 private:
   std::vector<std::int32_t> n_free;     // unused slots by chunk
@@ -207,5 +221,13 @@ private:
     n_free.back() += pack_width;
   }
 };
+
+/// Has every contact of a store searched anew at the next step: its motion budget is used up.
+template <template <class> class State>
+void search_all_anew(ContactStore<State> &store)
+{
+  for (State<Pack> &block : store.blocks)
+    block.budget = math::select(block.weight > 0., Pack(-1.), block.budget);
+}
 
 } // namespace bergamo::dem

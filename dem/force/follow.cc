@@ -38,7 +38,7 @@ BERGAMO_INLINE void prefetch(const ContactStore<State> &store, const std::size_t
   {
     const std::int32_t j = store.second[block * pack_width + lane];
     __builtin_prefetch(&p.position[j]);
-    __builtin_prefetch(&p.velocity[j]);
+    __builtin_prefetch(&p.drift_velocity[j]);
     __builtin_prefetch(&p.angular_velocity[j]);
   }
 }

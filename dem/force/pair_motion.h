@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/core/pack_vectors.h"
+#include "dem/force/contact_search.h"
 #include "dem/state/particles.h"
 
 namespace bergamo::dem
@@ -11,7 +12,7 @@ template <class Real>
 struct PairMotion
 {
   Vector3<Real> half_line;                 ///< half of x2 - x1 at this step [m]
-  Vector3<Real> velocity;                  ///< v2 - v1 [m/s]
+  Vector3<Real> velocity;                  ///< v2 - v1 of the drift [m/s]
   Vector3<Real> spin_sum, spin_difference; ///< w1 + w2, w2 - w1 [1/s]
   double time_step;
 
@@ -26,7 +27,7 @@ struct PairMotion
       return math::gather_vectors<Real>([&](const int lane) -> const Vec3 & { return values[index(lane)]; });
     };
     half_line = (load(p.position, second) - load(p.position, first)) * Real(0.5);
-    velocity = load(p.velocity, second) - load(p.velocity, first);
+    velocity = load(p.drift_velocity, second) - load(p.drift_velocity, first);
     const Vector3<Real> spin1 = load(p.angular_velocity, first), spin2 = load(p.angular_velocity, second);
     spin_sum = spin1 + spin2;
     spin_difference = spin2 - spin1;
@@ -64,5 +65,12 @@ struct PairMotion
     return path + radius * turns * Real(time_step);
   }
 };
+
+/// Motion of the two particles of one pair.
+inline PairMotion<double> motion_of_pair(const ContactSearch &pair, const ContactScene &scene)
+{
+  return {scene.particles, [&](int) { return pair.first; }, [&](int) { return pair.second; },
+          [&](int) { return pair.image; }, scene.time_step};
+}
 
 } // namespace bergamo::dem

@@ -4,27 +4,50 @@
 #include "dem/core/rotation_matrix.h"
 #include "dem/force/pair_motion.h"
 
+#include <array>
+
 namespace bergamo::dem
 {
 namespace
 {
 
-template <class Real, class Index>
-Pose<Real> gather_pose(const Particles &p, const Index &index)
+/// Poses of the parts of all lanes. @param arm centres of the parts minus those of their particles [m], where any
+/// particle has more than one part
+template <class Part, class Index>
+Pose<Pack> gather_pose(const Particles &p, const Part &part, const Index &particle, Vector3<Pack> &arm)
 {
   const auto load = [&](const auto &number)
-  { return math::generate<Real>([&](const int lane) -> double { return number(index(lane)); }); };
-  const SupportShape<Real> shape(load([&](const std::int32_t i) { return p.shape[i].half_axes[0]; }),
-                                 load([&](const std::int32_t i) { return p.shape[i].half_axes[1]; }),
-                                 load([&](const std::int32_t i) { return p.shape[i].half_axes[2]; }),
-                                 load([&](const std::int32_t i) { return p.shape[i].eps1; }),
-                                 load([&](const std::int32_t i) { return p.shape[i].eps2; }));
-  const Real x = load([&](const std::int32_t i) { return p.orientation[i].x(); }),
-             y = load([&](const std::int32_t i) { return p.orientation[i].y(); }),
-             z = load([&](const std::int32_t i) { return p.orientation[i].z(); }),
-             w = load([&](const std::int32_t i) { return p.orientation[i].w(); });
+  { return math::generate<Pack>([&](const int lane) -> double { return number(lane); }); };
+  const std::vector<Superquadric> &shapes = p.parts.shape;
+  const SupportShape<Pack> shape(load([&](const int lane) { return shapes[part(lane)].half_axes[0]; }),
+                                 load([&](const int lane) { return shapes[part(lane)].half_axes[1]; }),
+                                 load([&](const int lane) { return shapes[part(lane)].half_axes[2]; }),
+                                 load([&](const int lane) { return shapes[part(lane)].eps1; }),
+                                 load([&](const int lane) { return shapes[part(lane)].eps2; }));
+  if (p.has_clumps())
+  {
+    std::array<Quaternion, pack_width> turn;
+    std::array<Vec3, pack_width> place;
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      turn[lane] = p.part_orientation(part(lane));
+      place[lane] = p.orientation[particle(lane)] * p.parts.place[part(lane)];
+    }
+    arm = math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return place[lane]; });
+    const Pack x = load([&](const int lane) { return turn[lane].x(); }),
+               y = load([&](const int lane) { return turn[lane].y(); }),
+               z = load([&](const int lane) { return turn[lane].z(); }),
+               w = load([&](const int lane) { return turn[lane].w(); });
+    return {shape, rotation_matrix(x, y, z, w),
+            math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.position[particle(lane)]; }) +
+                arm};
+  }
+  const Pack x = load([&](const int lane) { return p.orientation[particle(lane)].x(); }),
+             y = load([&](const int lane) { return p.orientation[particle(lane)].y(); }),
+             z = load([&](const int lane) { return p.orientation[particle(lane)].z(); }),
+             w = load([&](const int lane) { return p.orientation[particle(lane)].w(); });
   return {shape, rotation_matrix(x, y, z, w),
-          math::gather_vectors<Real>([&](const int lane) -> const Vec3 & { return p.position[index(lane)]; })};
+          math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.position[particle(lane)]; })};
 }
 
 /// Share of the contact in the virtual work: interpolated along the line of centres, Wellmann (6.29), and held between
@@ -39,13 +62,15 @@ Real contact_weight(const Real &weight1, const Real &weight2, const Vector3<Real
 
 } // namespace
 
-void search_contacts(const std::span<ContactSearch> searches, const std::size_t from, const std::size_t to,
-                     const SearchContext &context, ContactLosses &losses, std::vector<BegunContact> &begun)
+void search_contacts(const std::span<ContactSearch> searches, const SearchContext<GrainGrain> &context,
+                     ContactLosses &losses, std::vector<BegunContact<GrainGrain>> &begun)
 {
-  const Particles &p = context.particles;
-  const int n = static_cast<int>(to - from);
-  const auto search_of = [&](const int lane) -> const ContactSearch &
-  { return searches[from + (lane < n ? lane : 0)]; };
+  const ContactScene &scene = context.scene;
+  const Particles &p = scene.particles;
+  const int n = static_cast<int>(searches.size());
+  const auto search_of = [&](const int lane) -> const ContactSearch & { return searches[lane < n ? lane : 0]; };
+  const auto first_part = [&](const int lane) { return search_of(lane).first_part; };
+  const auto second_part = [&](const int lane) { return search_of(lane).second_part; };
   const auto first = [&](const int lane) { return search_of(lane).first; };
   const auto second = [&](const int lane) { return search_of(lane).second; };
   const auto image = [&](const int lane) { return search_of(lane).image; };
@@ -62,53 +87,56 @@ void search_contacts(const std::span<ContactSearch> searches, const std::size_t 
     if (has_contact)
       context.store.copy_lane(search.slot, s, lane);
     for (int d = 0; d < 3; ++d)
-      guess[d][lane] = has_contact ? math::lane(s.normal[d], lane) : context.direction[search.pair][d];
+      guess[d][lane] = has_contact ? math::lane(s.normal[d], lane) : context.hint[search.pair][d];
   }
 
-  const Pose<Pack> body1 = gather_pose<Pack>(p, first);
-  Pose<Pack> body2 = gather_pose<Pack>(p, second);
+  Vector3<Pack> part_arm1, part_arm2;
+  const Pose<Pack> body1 = gather_pose(p, first_part, first, part_arm1);
+  Pose<Pack> body2 = gather_pose(p, second_part, second, part_arm2);
   if (p.cell.is_periodic())
     body2.position +=
         math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.cell.place[image(lane)]; });
   const FoundContacts<Pack> found = search_pairs<Pack>(body1, body2, guess, n);
   for (int lane = 0; lane < n; ++lane)
   {
-    ContactSearch &search = searches[from + lane];
+    ContactSearch &search = searches[lane];
     search.is_undecided = found.is_undecided[lane];
     search.is_touching = math::lane(found.overlap, lane) > 0.;
     search.gap = -math::lane(found.overlap, lane);
     if (!search.is_touching)
-      context.direction[search.pair] = math::lane<Pack>(found.normal, lane).cast<float>();
+      context.hint[search.pair] = math::lane<Pack>(found.normal, lane).cast<float>();
   }
   if (!math::any(found.overlap > 0.))
     return;
 
-  const PairMotion<Pack> motion(p, first, second, image, context.time_step);
-  const double bound = context.parameters.curvature_bound;
+  const PairMotion<Pack> motion(p, first, second, image, scene.time_step);
+  const double bound = scene.parameters.curvature_bound;
   const RelativeCurvature<Pack> curvature =
       relative_curvature(tangent_frame(found.normal), found.radii1, curvature_bounds(body1.shape, bound), found.radii2,
                          curvature_bounds(body2.shape, bound));
   const Pack old_overlap = s.overlap;
   s.spin += motion.turn_about(s.normal);
   const ContactState<Pack> before = s;
-  take_geometry(s, found.normal, found.overlap, curvature, context.law.elastic);
+  take_geometry(s, found.normal, found.overlap, curvature, scene.law.elastic);
   s.point = (found.arm1 + found.arm2) * Pack(0.5);
+  if (p.has_clumps())
+    s.point += (part_arm1 + part_arm2) * Pack(0.5);
   s.weight = contact_weight<Pack>(load(p.weight, first), load(p.weight, second), motion.half_line * Pack(2.),
                                   s.point + motion.half_line);
   const Pack mass1 = load(p.mass, first), mass2 = load(p.mass, second);
   s.reduced_mass = 1. / (1. / mass1 + 1. / mass2);
-  s.radius = math::min(load(p.bounding_radius, first), load(p.bounding_radius, second));
-  s.budget = motion_budget(context.parameters, s.radius, s.overlap, (found.radii1 + found.radii2).norm());
+  s.radius = math::min(load(p.parts.bounding_radius, first_part), load(p.parts.bounding_radius, second_part));
+  s.budget = motion_budget(scene.parameters, s.radius, s.overlap, (found.radii1 + found.radii2).norm());
 
   Losses<Pack> lost;
   lost.curvature = curvature_work(before, s, old_overlap);
   const Vector3<Pack> force =
-      advance_contact(s, context.law, old_overlap, motion.displacement(s.point), context.time_step, lost);
+      advance_contact(s, scene.law, old_overlap, motion.displacement(s.point), scene.time_step, lost);
   const Vector3<Pack> torque1 = (motion.half_line + s.point).cross(force),
                       torque2 = (motion.half_line - s.point).cross(force);
   for (int lane = 0; lane < n; ++lane)
   {
-    ContactSearch &search = searches[from + lane];
+    ContactSearch &search = searches[lane];
     if (!search.is_touching)
       continue;
     losses += ContactLosses{math::lane(lost.friction, lane), math::lane(lost.viscous, lane),
@@ -118,7 +146,7 @@ void search_contacts(const std::span<ContactSearch> searches, const std::size_t 
     if (search.slot >= 0)
       context.store.take_lane(search.slot, s, lane);
     else
-      begun.push_back({from + lane, lane_of(s, lane)});
+      begun.push_back({static_cast<std::size_t>(lane), lane_of(s, lane)});
   }
 }
 

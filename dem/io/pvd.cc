@@ -1,6 +1,6 @@
 #include "dem/io/pvd.h"
 
-#include "dem/io/whole_file.h"
+#include "dem/core/whole_file.h"
 #include "dem/io/xml.h"
 
 #include <charconv>

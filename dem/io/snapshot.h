@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/io/archive.h"
+#include "dem/core/archive.h"
 #include "dem/simulation.h"
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace bergamo::dem
 void write_simulation(ArchiveWriter &archive, const Simulation &simulation);
 
 /// Makes the simulation that write_simulation() stored. Throws RunError where the archive does not hold one.
-/// @param parameters of the run; friction and time step are those of the archive
+/// @param parameters of the run; what Simulation::change() may have altered is taken from the archive
 std::unique_ptr<Simulation> read_simulation(const ArchiveReader &archive, const SimulationParameters &parameters);
 
 } // namespace bergamo::dem

@@ -2,7 +2,7 @@
 
 #include "dem/core/error.h"
 #include "dem/core/parallel.h"
-#include "dem/io/whole_file.h"
+#include "dem/core/whole_file.h"
 #include "dem/io/xml.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace
 
 constexpr std::uint8_t vtk_triangle = 5, vtk_quadrilateral = 9;
 
-/// Points and faces of one grain: the poles first and last, rings of longitudes between them from north to south.
+/// Points and faces of one part: the poles first and last, rings of longitudes between them from north to south.
 struct Globe
 {
   int quarter;
@@ -88,12 +88,12 @@ struct Globe
   }
 };
 
-/// One array of the file. Every grain fills the same number of bytes.
+/// One array of the file. Every part fills the same number of bytes.
 struct Array
 {
   std::string attributes;
-  std::size_t bytes_per_grain;
-  std::function<void(std::size_t grain, std::byte *bytes)> fill;
+  std::size_t bytes_per_part;
+  std::function<void(std::size_t part, std::byte *bytes)> fill;
 };
 
 template <class Value>
@@ -115,27 +115,27 @@ std::string attributes(const std::string &type, const std::string &name, const i
          std::to_string(n_components) + "\"";
 }
 
-/// Value of a grain, repeated on each of its faces.
+/// Value of a part, repeated on each of its faces.
 template <class Value>
 Array cell_array(const std::string &attributes, const std::size_t bytes, const int n_faces, Value value)
 {
   return {attributes, n_faces * bytes,
-          [n_faces, value](const std::size_t grain, std::byte *out)
+          [n_faces, value](const std::size_t part, std::byte *out)
           {
             for (int face = 0; face < n_faces; ++face)
-              put(out, value(grain));
+              put(out, value(part));
           }};
 }
 
-/// Indices that grow by `shift` from one grain to the next.
+/// Indices that grow by `shift` from one part to the next.
 template <class Index>
 Array index_array(const std::string &attributes, const std::vector<int> &first, const std::size_t shift)
 {
   return {attributes, first.size() * sizeof(Index),
-          [&first, shift](const std::size_t grain, std::byte *out)
+          [&first, shift](const std::size_t part, std::byte *out)
           {
             for (const int index : first)
-              put(out, static_cast<Index>(grain * shift + index));
+              put(out, static_cast<Index>(part * shift + index));
           }};
 }
 
@@ -148,7 +148,7 @@ Array index_array(const std::string &name, const std::vector<int> &first, const 
 }
 
 /// Section of the XML part; `offset` runs on through the binary part.
-std::string section(const std::string &name, const std::span<const Array> arrays, const std::size_t n_grains,
+std::string section(const std::string &name, const std::span<const Array> arrays, const std::size_t n_parts,
                     std::size_t &offset)
 {
   std::string text = "      <" + name + ">\n";
@@ -156,22 +156,22 @@ std::string section(const std::string &name, const std::span<const Array> arrays
   {
     text +=
         "        <DataArray " + array.attributes + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
-    offset += sizeof(std::uint64_t) + n_grains * array.bytes_per_grain;
+    offset += sizeof(std::uint64_t) + n_parts * array.bytes_per_part;
   }
   return text + "      </" + name + ">\n";
 }
 
-void write(WholeFile &file, const Array &array, const std::size_t n_grains)
+void write(WholeFile &file, const Array &array, const std::size_t n_parts)
 {
-  const std::uint64_t size = n_grains * array.bytes_per_grain;
+  const std::uint64_t size = n_parts * array.bytes_per_part;
   file.write(&size, sizeof size);
-  constexpr std::size_t grains_at_once = 2048;
+  constexpr std::size_t parts_at_once = 2048;
   std::vector<std::byte> block;
-  for (std::size_t first = 0; first < n_grains; first += grains_at_once)
+  for (std::size_t first = 0; first < n_parts; first += parts_at_once)
   {
-    const std::size_t n = std::min(grains_at_once, n_grains - first);
-    block.resize(n * array.bytes_per_grain);
-    parallel_for(n, [&](const std::size_t i) { array.fill(first + i, block.data() + i * array.bytes_per_grain); });
+    const std::size_t n = std::min(parts_at_once, n_parts - first);
+    block.resize(n * array.bytes_per_part);
+    parallel_for(n, [&](const std::size_t i) { array.fill(first + i, block.data() + i * array.bytes_per_part); });
     file.write(block.data(), block.size());
   }
 }
@@ -190,37 +190,39 @@ void write_grains_vtu(const Particles &particles, const std::span<const GrainFie
                         std::to_string(particles.size()) + " grains: give one value a grain");
 
   const Globe globe(n_per_quarter);
-  const std::size_t n_grains = particles.size();
+  const std::size_t n_parts = particles.parts.size();
   const std::size_t n_points = globe.n_points;
+  const std::vector<std::int32_t> &carrier = particles.parts.particle;
   const int n_faces = static_cast<int>(globe.face_end.size());
 
   const Array points{attributes("Float32", "Points", 3), n_points * 3 * sizeof(float),
-                     [&](const std::size_t grain, std::byte *out)
+                     [&](const std::size_t part, std::byte *out)
                      {
                        thread_local std::vector<Vec3> body;
-                       globe.points(particles.shape[grain], body);
-                       const Mat3 turn = particles.orientation[grain].toRotationMatrix();
+                       globe.points(particles.parts.shape[part], body);
+                       const Vec3 centre = particles.part_position(part);
+                       const Mat3 turn = particles.part_orientation(part).toRotationMatrix();
                        for (const Vec3 &point : body)
-                         put(out, Vec3(particles.position[grain] + turn * point));
+                         put(out, Vec3(centre + turn * point));
                      }};
   const std::size_t n_corners = globe.connectivity.size();
   const Array types{attributes("UInt8", "types"), globe.face_type.size(),
                     [&](std::size_t, std::byte *out) { std::memcpy(out, globe.face_type.data(), n_faces); }};
-  const std::vector<Array> cells{index_array("connectivity", globe.connectivity, n_points, n_grains * n_points),
-                                 index_array("offsets", globe.face_end, n_corners, n_grains * n_corners), types};
+  const std::vector<Array> cells{index_array("connectivity", globe.connectivity, n_points, n_parts * n_points),
+                                 index_array("offsets", globe.face_end, n_corners, n_parts * n_corners), types};
 
   const auto vectors = [&](const std::string &name, const std::vector<Vec3> &values)
   {
     return cell_array(attributes("Float32", name, 3), 3 * sizeof(float), n_faces,
-                      [&values](const std::size_t grain) -> const Vec3 & { return values[grain]; });
+                      [&carrier, &values](const std::size_t part) -> const Vec3 & { return values[carrier[part]]; });
   };
   const auto scalars = [&](const std::string &name, const std::span<const double> values)
   {
     return cell_array(attributes("Float32", name), sizeof(float), n_faces,
-                      [values](const std::size_t grain) { return static_cast<float>(values[grain]); });
+                      [&carrier, values](const std::size_t part) { return static_cast<float>(values[carrier[part]]); });
   };
   std::vector<Array> cell_data{cell_array(attributes("Int64", "id"), sizeof(std::int64_t), n_faces,
-                                          [&](const std::size_t grain) { return particles.id[grain]; }),
+                                          [&](const std::size_t part) { return particles.id[carrier[part]]; }),
                                vectors("velocity", particles.velocity),
                                vectors("angular_velocity", particles.angular_velocity),
                                scalars("bounding_radius", particles.bounding_radius)};
@@ -233,20 +235,20 @@ void write_grains_vtu(const Particles &particles, const std::span<const GrainFie
                      "header_type=\"UInt64\">\n"
                      "  <UnstructuredGrid>\n"
                      "    <Piece NumberOfPoints=\"" +
-                     std::to_string(n_grains * n_points) + "\" NumberOfCells=\"" + std::to_string(n_grains * n_faces) +
+                     std::to_string(n_parts * n_points) + "\" NumberOfCells=\"" + std::to_string(n_parts * n_faces) +
                      "\">\n";
-  head += section("Points", {&points, 1}, n_grains, offset);
-  head += section("Cells", cells, n_grains, offset);
-  head += section("CellData", cell_data, n_grains, offset);
+  head += section("Points", {&points, 1}, n_parts, offset);
+  head += section("Cells", cells, n_parts, offset);
+  head += section("CellData", cell_data, n_parts, offset);
   head += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
 
   WholeFile file(path);
   file.write(head);
-  write(file, points, n_grains);
+  write(file, points, n_parts);
   for (const Array &array : cells)
-    write(file, array, n_grains);
+    write(file, array, n_parts);
   for (const Array &array : cell_data)
-    write(file, array, n_grains);
+    write(file, array, n_parts);
   file.write("\n  </AppendedData>\n</VTKFile>\n");
   file.commit();
 }

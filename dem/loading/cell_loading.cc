@@ -36,7 +36,7 @@ CellLoading::CellLoading(const LoadingStage &stage, const MeanGrain &grain, cons
 void CellLoading::begin(Simulation &simulation)
 {
   SimulationParameters parameters = simulation.parameters();
-  parameters.friction = s.friction;
+  parameters.between_grains().friction = s.friction;
   parameters.time_step = s.time_step;
   parameters.contact.overlap_tolerance = s.overlap_tolerance;
   simulation.change(parameters);

@@ -1,20 +1,13 @@
 #pragma once
 
-#include "dem/force/pair_contacts.h"
-#include "dem/force/wall_contacts.h"
+#include "dem/force/touching_contact.h"
+#include "dem/state/particles.h"
 
 #include <span>
 #include <vector>
 
 namespace bergamo::dem
 {
-
-/// The second body of a contact with a wall.
-inline constexpr std::int32_t no_grain = -1;
-
-/// Touching contacts with walls in the order of the candidates: body 1 is the grain, body 2 is no_grain. The branch
-/// ends at the contact point, where the boundary is, so that stresses of a packing between walls are complete.
-std::vector<TouchingContact> touching_walls(const WallContacts &walls);
 
 /// Place of a contact with a grain or a wall [m]; in a periodic cell beside body 1, maybe outside of the cell.
 Vec3 contact_point(const TouchingContact &contact, const Particles &particles);

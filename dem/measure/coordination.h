@@ -1,6 +1,7 @@
 #pragma once
 
-#include "dem/force/pair_contacts.h"
+#include "dem/force/touching_contact.h"
+#include "dem/state/particles.h"
 
 #include <cstdint>
 #include <span>

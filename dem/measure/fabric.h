@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/force/pair_contacts.h"
+#include "dem/force/touching_contact.h"
 #include "dem/measure/tensor.h"
 
 #include <span>

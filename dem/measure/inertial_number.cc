@@ -15,7 +15,7 @@ MeanGrain mean_grain(const Particles &particles)
     if (particles.is_fixed(i))
       continue;
     sum.mass += particles.mass[i];
-    sum.diameter += 2. * equivalent_radius(particles.shape[i]);
+    sum.diameter += 2. * equivalent_radius(particles.volume[i]);
     n += 1.;
   }
   return n > 0. ? MeanGrain{sum.mass / n, sum.diameter / n} : MeanGrain();

@@ -24,7 +24,7 @@ double solid_volume(const Particles &particles)
   double sum = 0.;
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (!particles.is_fixed(i))
-      sum += volume(particles.shape[i]);
+      sum += particles.volume[i];
   return sum;
 }
 
@@ -53,7 +53,7 @@ std::vector<Sphere> equivalent_spheres(const Particles &particles)
   spheres.reserve(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (!particles.is_fixed(i))
-      spheres.push_back({particles.position[i], equivalent_radius(particles.shape[i])});
+      spheres.push_back({particles.position[i], equivalent_radius(particles.volume[i])});
   return spheres;
 }
 

@@ -43,10 +43,26 @@ void store(std::vector<Vec3> &values, const Lanes &grains, const Vector3<Pack> &
       values[grains.begin + lane] = math::lane<Pack>(packed, lane);
 }
 
-/// @return whether all new states are finite, else none is stored; `largest` grows to the largest motion of a grain
-bool advance_lanes(Particles &p, const Lanes &grains, const AccelerationField &field, const double dt, Pack &largest)
+/// @param path of the centres [m]; @param turn [rad]
+void add_motion_of_parts(Particles &p, const Lanes &grains, const Pack &path, const Pack &turn)
 {
-  const Pack weight = load(p.weight, grains), kick = dt / weight;
+  for (int lane = 0; lane < grains.size(); ++lane)
+    for (auto k = p.first_part[grains.begin + lane]; k < p.first_part[grains.begin + lane + 1]; ++k)
+      p.parts.motion[k] += math::lane(path, lane) + math::lane(turn, lane) * p.parts.reach[k];
+}
+
+struct Step
+{
+  const AccelerationField &field;
+  double kick, drift; // [s]
+};
+
+/// @return whether all new states are finite, else none is stored; `largest` grows to the largest motion of a grain
+bool advance_lanes(Particles &p, const Lanes &grains, const Step &step, Pack &largest)
+{
+  const AccelerationField &field = step.field;
+  const double dt = step.drift;
+  const Pack weight = load(p.weight, grains), kick = step.kick / weight;
   const Pack mass = load(p.mass, grains), acceleration = kick / mass;
   Vector3<Pack> force = load(p.force, grains);
   if (!p.external_force.empty())
@@ -55,7 +71,7 @@ bool advance_lanes(Particles &p, const Lanes &grains, const AccelerationField &f
   const Vector3<Pack> old_position = load(p.position, grains);
   Vector3<Pack> field_kick;
   for (int d = 0; d < 3; ++d)
-    field_kick[d] = free * (dt * field.constant[d] + dt * field.gradient[d] * old_position[d]);
+    field_kick[d] = free * (step.kick * field.constant[d] + step.kick * field.gradient[d] * old_position[d]);
   const Vector3<Pack> velocity = load(p.velocity, grains) + force * acceleration + field_kick;
   const Vector3<Pack> position = old_position + velocity * Pack(dt);
   const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * (kick * free);
@@ -71,6 +87,7 @@ bool advance_lanes(Particles &p, const Lanes &grains, const AccelerationField &f
     return false;
   largest = math::max(largest, motion);
   store(p.velocity, grains, velocity);
+  store(p.drift_velocity, grains, velocity);
   store(p.position, grains, position);
   store(p.angular_momentum, grains, momentum);
   store(p.angular_velocity, grains, spin);
@@ -78,14 +95,17 @@ bool advance_lanes(Particles &p, const Lanes &grains, const AccelerationField &f
   {
     p.orientation[grains.begin + lane] = Quaternion(math::lane(orientation.w, lane), math::lane(orientation.x, lane),
                                                     math::lane(orientation.y, lane), math::lane(orientation.z, lane));
-    p.motion[grains.begin + lane] += math::lane(motion, lane);
+    if (!p.has_clumps())
+      p.parts.motion[grains.begin + lane] += math::lane(motion, lane);
   }
+  if (p.has_clumps())
+    add_motion_of_parts(p, grains, dt * velocity.norm(), dt * spin.norm());
   return true;
 }
 
 } // namespace
 
-bool advance(Particles &particles, const AccelerationField &field, const double time_step)
+bool advance(Particles &particles, const AccelerationField &field, const double kick, const double drift)
 {
   struct Found
   {
@@ -100,7 +120,7 @@ bool advance(Particles &particles, const AccelerationField &field, const double 
                     bool is_finite = true;
                     Pack largest(0.);
                     for (std::size_t pack = begin; pack < end; ++pack)
-                      is_finite &= advance_lanes(particles, {pack * pack_width, n}, field, time_step, largest);
+                      is_finite &= advance_lanes(particles, {pack * pack_width, n}, {field, kick, drift}, largest);
                     double most = 0.;
                     for (int lane = 0; lane < pack_width; ++lane)
                       most = std::max(most, math::lane(largest, lane));

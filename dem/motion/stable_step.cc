@@ -31,9 +31,8 @@ Coefficients coefficients(const ContactState<double> &s, const ContactLaw &law)
 class Operator
 {
 public:
-  Operator(const Particles &p, const std::vector<TouchingContact> &pairs, const ContactLaw &pair_law,
-           const WallContacts &walls, const ContactLaw &wall_law)
-      : p(p), pairs(pairs), walls(walls), pair_law(pair_law), wall_law(wall_law)
+  Operator(const Particles &p, const std::span<const TouchingContact> contacts, const std::span<const ContactLaw> laws)
+      : p(p), contacts(contacts), laws(laws)
   {
   }
 
@@ -53,26 +52,26 @@ public:
       damped += viscous.dot(d);
       return stiffness_factor * elastic + damping_factor * viscous;
     };
-    for (const auto &[i, j, s, branch, image] : pairs)
+    for (const TouchingContact &contact : contacts)
     {
-      const Vec3 half_line = 0.5 * branch;
+      const auto i = contact.first, j = contact.second;
+      const ContactState<double> &s = contact.state;
+      const ContactLaw &law = laws[contact.law];
+      if (j == no_grain)
+      {
+        const Vec3 f = force_of(s, law, x.translation[i] + x.rotation[i].cross(s.point));
+        y.translation[i] += f;
+        y.rotation[i] += s.point.cross(f);
+        continue;
+      }
+      const Vec3 half_line = 0.5 * contact.branch;
       const Vec3 arm1 = s.point + half_line, arm2 = s.point - half_line;
       const Vec3 f = force_of(
-          s, pair_law, x.translation[i] + x.rotation[i].cross(arm1) - x.translation[j] - x.rotation[j].cross(arm2));
+          s, law, x.translation[i] + x.rotation[i].cross(arm1) - x.translation[j] - x.rotation[j].cross(arm2));
       y.translation[i] += f;
       y.translation[j] -= f;
       y.rotation[i] += arm1.cross(f);
       y.rotation[j] -= arm2.cross(f);
-    }
-    for (std::size_t k = 0; k < walls.size(); ++k)
-    {
-      if (!walls.is_touching(k))
-        continue;
-      const ContactState<double> s = walls.state(k);
-      const auto i = walls.particle[k];
-      const Vec3 f = force_of(s, wall_law, x.translation[i] + x.rotation[i].cross(s.point));
-      y.translation[i] += f;
-      y.rotation[i] += s.point.cross(f);
     }
     for (std::size_t i = 0; i < p.size(); ++i)
     {
@@ -103,9 +102,8 @@ private:
   }
 
   const Particles &p;
-  const std::vector<TouchingContact> &pairs;
-  const WallContacts &walls;
-  const ContactLaw &pair_law, &wall_law;
+  std::span<const TouchingContact> contacts;
+  std::span<const ContactLaw> laws;
 };
 
 void scale(Motion &x, const double factor)
@@ -118,12 +116,11 @@ void scale(Motion &x, const double factor)
 
 } // namespace
 
-double stable_time_step(const Particles &particles, const std::vector<TouchingContact> &pairs,
-                        const ContactLaw &pair_law, const WallContacts &walls, const ContactLaw &wall_law,
-                        const double guess)
+double stable_time_step(const Particles &particles, const std::span<const TouchingContact> contacts,
+                        const std::span<const ContactLaw> laws, const double guess)
 {
   constexpr int n_rounds = 3, n_iterations = 40;
-  const Operator op(particles, pairs, pair_law, walls, wall_law);
+  const Operator op(particles, contacts, laws);
 
   // A fixed start without symmetry and without zeros, so that no mode is missed and the result repeats.
   Motion start{std::vector<Vec3>(particles.size()), std::vector<Vec3>(particles.size())};

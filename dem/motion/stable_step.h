@@ -1,8 +1,9 @@
 #pragma once
 
-#include "dem/force/pair_contacts.h"
-#include "dem/force/wall_contacts.h"
+#include "dem/force/touching_contact.h"
 #include "dem/state/particles.h"
+
+#include <span>
 
 namespace bergamo::dem
 {
@@ -11,9 +12,9 @@ namespace bergamo::dem
 ///   lambda_max( M^-1 (K dt^2/4 + C dt/2) ) = 1,
 /// K and C the stiffness and damping of all contacts, translations and rotations, found by power iteration.
 /// Infinity without contacts. Contacts grow stiffer as they are pressed: leave a margin.
+/// @param contacts all that touch, walls included; @param laws by TouchingContact::law
 /// @param guess a time step near the answer [s]
-double stable_time_step(const Particles &particles, const std::vector<TouchingContact> &pairs,
-                        const ContactLaw &pair_law, const WallContacts &walls, const ContactLaw &wall_law,
-                        double guess);
+double stable_time_step(const Particles &particles, std::span<const TouchingContact> contacts,
+                        std::span<const ContactLaw> laws, double guess);
 
 } // namespace bergamo::dem

@@ -49,13 +49,8 @@ namespace
 std::vector<double> wall_stiffness(const Simulation &simulation)
 {
   std::vector<double> sum(simulation.walls.size(), 0.);
-  const WallContacts &contacts = simulation.wall_contacts;
-  for (std::size_t k = 0; k < contacts.size(); ++k)
-    if (contacts.is_touching(k))
-    {
-      const ContactState<double> s = contacts.state(k);
-      sum[contacts.wall[k]] += 1.5 * s.stiffness.normal * std::sqrt(s.overlap);
-    }
+  for (const TouchingContact &contact : simulation.contacts.touching_walls(simulation.particles))
+    sum[contact.wall] += 1.5 * contact.state.stiffness.normal * std::sqrt(contact.state.overlap);
   return sum;
 }
 
@@ -132,11 +127,10 @@ double unbalanced_force(const Simulation &simulation)
     contact += std::hypot(s.forces.normal, s.forces.tangential.norm());
     ++n_contacts;
   };
-  for (const TouchingContact &pair : simulation.pairs.touching(simulation.particles))
+  for (const TouchingContact &pair : simulation.contacts.touching(simulation.particles))
     add(pair.state);
-  for (std::size_t k = 0; k < simulation.wall_contacts.size(); ++k)
-    if (simulation.wall_contacts.is_touching(k))
-      add(simulation.wall_contacts.state(k));
+  for (const TouchingContact &contact : simulation.contacts.touching_walls(simulation.particles))
+    add(contact.state);
   if (n_loaded == 0 || n_contacts == 0 || contact == 0.)
     return 1.;
   return (resultant / n_loaded) / (contact / n_contacts);

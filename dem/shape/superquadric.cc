@@ -89,7 +89,12 @@ double bounding_radius(const Superquadric &shape)
 
 double equivalent_radius(const Superquadric &shape)
 {
-  return std::cbrt(volume(shape) * 3. / (4. * std::numbers::pi));
+  return equivalent_radius(volume(shape));
+}
+
+double equivalent_radius(const double volume)
+{
+  return std::cbrt(volume * 3. / (4. * std::numbers::pi));
 }
 
 Vec3 surface_point(const Superquadric &shape, const double latitude, const double longitude)

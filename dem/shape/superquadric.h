@@ -34,6 +34,7 @@ double bounding_radius(const Superquadric &shape);
 
 /// Radius of the sphere of equal volume [m].
 double equivalent_radius(const Superquadric &shape);
+double equivalent_radius(double volume);
 
 /// Point of the surface in the body frame for the angles -pi/2 <= latitude <= pi/2, -pi <= longitude <= pi (Barr 1981).
 Vec3 surface_point(const Superquadric &shape, double latitude, double longitude);

@@ -1,27 +1,102 @@
 #include "dem/state/particles.h"
 
+#include "dem/core/error.h"
+
+#include <algorithm>
 #include <limits>
+#include <sstream>
+#include <type_traits>
+#include <utility>
 
 namespace bergamo::dem
 {
+namespace
+{
+
+template <class T>
+void permute(std::vector<T> &values, const std::vector<std::int32_t> &order)
+{
+  std::vector<T> sorted;
+  sorted.reserve(values.size());
+  for (const std::int32_t old : order)
+    sorted.push_back(values[old]);
+  values = std::move(sorted);
+}
+
+/// Appends entries begin .. end of all arrays of `others` that have such.
+template <class Fields>
+void append_entries(Fields &fields, const Fields &others, const std::size_t begin, const std::size_t end)
+{
+  std::vector<const void *> sources;
+  Fields::visit_fields(others, [&](const char *, const auto &values) { sources.push_back(&values); });
+  std::size_t field = 0;
+  Fields::visit_fields(fields,
+                       [&](const char *, auto &values)
+                       {
+                         const auto &source = *static_cast<std::remove_reference_t<decltype(values)> const *>(
+                             sources[field++]);
+                         if (!source.empty())
+                           values.insert(values.end(), source.begin() + begin, source.begin() + end);
+                       });
+}
+
+[[noreturn]] void refuse(const std::int64_t id, const std::string &what)
+{
+  throw ConfigError("grain " + std::to_string(id) + ' ' + what);
+}
+
+void check_length(const char *name, const std::size_t length, const std::size_t n)
+{
+  if (length != n)
+    throw ConfigError("the array '" + std::string(name) + "' has " + std::to_string(length) + " entries for " +
+                      std::to_string(n) + " grains: give one each");
+}
+
+} // namespace
 
 void Particles::add(const Superquadric &new_shape, const double density, const Vec3 &new_position,
-                    const Quaternion &new_orientation)
+                    const Quaternion &new_orientation, const std::int32_t material)
 {
-  id.push_back(static_cast<std::int64_t>(id.size()));
-  shape.push_back(new_shape);
-  mass.push_back(density * volume(new_shape));
+  new_shape.validate();
+  require(density > 0. && std::isfinite(density), "density of a grain", density, "positive [kg/m^3]");
+  require(new_position.allFinite(), "place of a grain", new_position.sum(), "finite [m]");
+  const double norm = new_orientation.norm();
+  require(norm > 0. && std::isfinite(norm), "norm of a grain's quaternion", norm, "positive and finite");
+  const double radius = dem::bounding_radius(new_shape);
+  const auto particle = static_cast<std::int32_t>(size());
+  id.push_back(particle);
+  volume.push_back(dem::volume(new_shape));
+  mass.push_back(density * volume.back());
   inertia.push_back(density * inertia_per_density(new_shape));
-  bounding_radius.push_back(dem::bounding_radius(new_shape));
+  bounding_radius.push_back(radius);
   position.push_back(new_position);
   orientation.push_back(new_orientation.normalized());
-  velocity.push_back(Vec3::Zero());
-  angular_momentum.push_back(Vec3::Zero());
-  angular_velocity.push_back(Vec3::Zero());
-  force.push_back(Vec3::Zero());
-  torque.push_back(Vec3::Zero());
+  for (auto *motion : {&velocity, &angular_momentum, &drift_velocity, &angular_velocity, &force, &torque})
+    motion->push_back(Vec3::Zero());
   weight.push_back(1.);
-  motion.push_back(0.);
+
+  parts.particle.push_back(particle);
+  parts.shape.push_back(new_shape);
+  parts.material.push_back(material);
+  parts.place.push_back(Vec3::Zero());
+  parts.turn.push_back(Quaternion::Identity());
+  parts.bounding_radius.push_back(radius);
+  parts.reach.push_back(radius);
+  parts.motion.push_back(0.);
+  first_part.push_back(static_cast<std::int32_t>(parts.size()));
+}
+
+void Particles::append(const Particles &others, const std::size_t i, const std::int64_t new_id)
+{
+  const std::size_t n = size(), n_parts = parts.size();
+  const bool has_forces = !external_force.empty();
+  if (has_forces)
+    external_force.push_back(Vec3::Zero());
+  append_entries(*this, others, i, i + 1);
+  id[n] = new_id;
+  append_entries(parts, others.parts, others.first_part[i], others.first_part[i + 1]);
+  std::fill(parts.particle.begin() + n_parts, parts.particle.end(), static_cast<std::int32_t>(n));
+  first_part.push_back(static_cast<std::int32_t>(parts.size()));
 }
 
 void Particles::fix(const std::size_t i)
@@ -31,6 +106,75 @@ void Particles::fix(const std::size_t i)
   velocity[i].setZero();
   angular_momentum[i].setZero();
   angular_velocity[i].setZero();
+}
+
+void Particles::check(const std::int32_t n_materials) const
+{
+  const std::size_t n = size();
+  visit_fields(*this,
+               [&](const std::string &name, const auto &values)
+               {
+                 if (name != "external_force" || !values.empty())
+                   check_length(name.c_str(), values.size(), n);
+               });
+  Parts::visit_fields(parts, [&](const char *name, const auto &values) { check_length(name, values.size(), parts.size()); });
+  check_length("first_part", first_part.size() - 1, n);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const auto demand = [&](const bool holds, const char *what, const double value, const char *allowed)
+    {
+      std::ostringstream message;
+      message << "has " << what << ' ' << value << ": it must be " << allowed;
+      if (!holds)
+        refuse(id[i], message.str());
+    };
+    const bool is_free = !is_fixed(i);
+    demand(volume[i] > 0. && std::isfinite(volume[i]), "the volume", volume[i], "positive [m^3]");
+    demand(mass[i] > 0., "the mass", mass[i], "positive [kg], or infinite for one that is fixed");
+    demand(!is_free || ((inertia[i].array() > 0.).all() && inertia[i].allFinite()), "the least moment of inertia",
+           inertia[i].minCoeff(), "positive and finite [kg m^2]");
+    demand(bounding_radius[i] > 0. && std::isfinite(bounding_radius[i]), "the bounding radius", bounding_radius[i],
+           "positive [m]");
+    demand(weight[i] > 0. && weight[i] <= 1., "the weight", weight[i], "in (0, 1]");
+    demand(position[i].allFinite(), "a place of", position[i].sum(), "finite [m]");
+    demand(std::abs(orientation[i].norm() - 1.) < 1e-6, "a quaternion of norm", orientation[i].norm(), "1");
+    demand(velocity[i].allFinite() && drift_velocity[i].allFinite(), "a velocity of", velocity[i].sum(),
+           "finite [m/s]");
+    demand(angular_momentum[i].allFinite() && angular_velocity[i].allFinite(), "an angular momentum of",
+           angular_momentum[i].sum(), "finite [kg m^2/s]");
+    if (!external_force.empty())
+      demand(external_force[i].allFinite(), "an external force of", external_force[i].sum(), "finite [N]");
+    for (auto k = first_part[i]; k < first_part[i + 1]; ++k)
+    {
+      parts.shape[k].validate();
+      demand(parts.material[k] >= 0 && parts.material[k] < n_materials, "the material", parts.material[k],
+             "one of the simulation's table, counted from 0");
+    }
+  }
+}
+
+std::vector<std::int32_t> Particles::reorder(const std::vector<std::int32_t> &order)
+{
+  std::vector<std::int32_t> part_order, new_first{0};
+  part_order.reserve(parts.size());
+  for (const std::int32_t old : order)
+  {
+    for (auto k = first_part[old]; k < first_part[old + 1]; ++k)
+      part_order.push_back(k);
+    new_first.push_back(static_cast<std::int32_t>(part_order.size()));
+  }
+  visit_fields(*this,
+               [&](const char *, auto &values)
+               {
+                 if (!values.empty())
+                   permute(values, order);
+               });
+  Parts::visit_fields(parts, [&](const char *, auto &values) { permute(values, part_order); });
+  first_part = std::move(new_first);
+  for (std::size_t i = 0; i < size(); ++i)
+    for (auto k = first_part[i]; k < first_part[i + 1]; ++k)
+      parts.particle[k] = static_cast<std::int32_t>(i);
+  return part_order;
 }
 
 } // namespace bergamo::dem

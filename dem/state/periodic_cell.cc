@@ -1,5 +1,7 @@
 #include "dem/state/periodic_cell.h"
 
+#include "dem/core/error.h"
+
 #include <cmath>
 
 namespace bergamo::dem
@@ -20,11 +22,21 @@ Image PeriodicCell::nearest_image(const Vec3 &line) const
   return static_cast<Image>(image);
 }
 
-void PeriodicCell::advance(const double time_step)
+void PeriodicCell::validate() const
 {
-  rate += time_step * acceleration;
-  edges += time_step * rate;
-  motion += time_step * rate.norm();
+  const bool is_open = (edges.array() == std::numeric_limits<double>::infinity()).all();
+  require(is_open || (edges.allFinite() && edges.minCoeff() > 0.), "least edge of a periodic cell", edges.minCoeff(),
+          "positive, and all three finite [m]; leave the cell out where nothing repeats itself");
+  require(rate.allFinite() && drift_rate.allFinite() && acceleration.allFinite(), "rate of a periodic cell", rate.sum(),
+          "finite [m/s]");
+}
+
+void PeriodicCell::advance(const double kick, const double drift)
+{
+  rate += kick * acceleration;
+  drift_rate = rate;
+  edges += drift * rate;
+  motion += drift * rate.norm();
   update_images();
 }
 
@@ -34,7 +46,7 @@ void PeriodicCell::update_images()
   {
     const Vec3 shift = shift_of(static_cast<Image>(image));
     place[image] = is_periodic() ? Vec3(shift.cwiseProduct(edges)) : Vec3(Vec3::Zero());
-    velocity[image] = shift.cwiseProduct(rate);
+    velocity[image] = shift.cwiseProduct(drift_rate);
   }
 }
 

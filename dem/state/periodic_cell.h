@@ -43,18 +43,35 @@ struct PeriodicCell
   /// The image of a grain that is nearest to another. @param line from the other grain to this one [m]
   Image nearest_image(const Vec3 &line) const;
 
-  /// Goes on to the next step. @param time_step [s]
-  void advance(double time_step);
+  /// Goes on to the next step. @param kick from the last half step to the next one [s]; @param drift time step [s]
+  void advance(double kick, double drift);
+
+  /// Throws ConfigError for edges that are not positive, or finite in some directions alone.
+  void validate() const;
 
   /// Follows edges and rate.
   void update_images();
 
   Vec3 edges;                       ///< L at this step [m]
   Vec3 rate = Vec3::Zero();         ///< dL/dt at the half step before [m/s]
+  Vec3 drift_rate = Vec3::Zero();   ///< dL/dt over the step before, which led to the present edges [m/s]
   Vec3 acceleration = Vec3::Zero(); ///< d2L/dt2 at this step, to be set by who controls the cell [m/s^2]
   double motion = 0.;               ///< path that bounds the motion of images against one another since the start [m]
 
-  std::array<Vec3, n_images> place, velocity; ///< of the images against the grain itself [m, m/s]
+  /// Of the images against the grain itself: their places, and the velocities that led there [m, m/s].
+  std::array<Vec3, n_images> place, velocity;
+
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    visit("edges", self.edges);
+    visit("rate", self.rate);
+    visit("drift_rate", self.drift_rate);
+    visit("acceleration", self.acceleration);
+    visit("motion", self.motion);
+    if constexpr (Visit::is_reading)
+      self.update_images();
+  }
 };
 
 } // namespace bergamo::dem

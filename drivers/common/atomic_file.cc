@@ -1,6 +1,6 @@
 #include "drivers/common/atomic_file.h"
 
-#include "dem/io/whole_file.h"
+#include "dem/core/whole_file.h"
 
 #include <cerrno>
 #include <system_error>

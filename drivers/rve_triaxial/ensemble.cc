@@ -1,7 +1,7 @@
 #include "drivers/rve_triaxial/ensemble.h"
 
 #include "dem/core/error.h"
-#include "dem/io/archive.h"
+#include "dem/core/archive.h"
 #include "drivers/common/atomic_file.h"
 #include "drivers/common/csv_table.h"
 #include "drivers/common/interrupt.h"

@@ -151,7 +151,7 @@ bool SampleRun::run()
       progress.fraction = (stage + loading->progress(*simulation)) / static_cast<double>(program.size());
   }
   f.n_steps = simulation->n_steps;
-  f.n_undecided = simulation->pairs.n_undecided;
+  f.n_undecided = simulation->contacts.n_undecided();
   f.wall_time = wall_time_before + std::chrono::duration<double>(Clock::now() - start).count();
   progress.fraction = 1.;
   return true;
@@ -162,7 +162,7 @@ void SampleRun::begin()
   std::filesystem::create_directories(folder);
   dem::PackingParameters packing;
   packing.solid_fraction = parameters.packing_solid_fraction;
-  packing.density = parameters.simulation.grain.density;
+  packing.density = parameters.simulation.grain().density;
   const dem::Vec3 edges = dem::Vec3::Constant(settings.edge);
   const auto space = dem::PackingSpace::periodic({dem::Vec3::Zero(), edges});
   dem::PackedGrains packed = dem::pack_grains(parameters.grading(), space, packing, settings.seed);
@@ -172,7 +172,7 @@ void SampleRun::begin()
                         ": choose a smaller Packing/solid fraction");
   packed.particles.cell = dem::PeriodicCell(edges);
   dem::SimulationParameters p = parameters.simulation;
-  p.friction = settings.generation_friction;
+  p.between_grains().friction = settings.generation_friction;
   p.time_step = program[0].time_step;
   simulation = std::make_unique<dem::Simulation>(p, std::move(packed.particles), std::vector<dem::PlaneWall>{});
   f.n_particles = static_cast<std::int64_t>(simulation->particles.size());
@@ -185,7 +185,7 @@ void SampleRun::begin()
 
 void SampleRun::begin_stage()
 {
-  loading.emplace(program[stage], grain, parameters.simulation.grain.density);
+  loading.emplace(program[stage], grain, parameters.simulation.grain().density);
   loading->begin(*simulation);
   next_row = next_distribution = simulation->n_steps;
 }
@@ -198,7 +198,7 @@ void SampleRun::end_stage()
   if (stage + 2 == static_cast<std::int64_t>(program.size()) || program.size() == 1)
   {
     f.solid_fraction = fraction;
-    f.coordination_number = 2. * simulation->pairs.n_touching() / static_cast<double>(f.n_particles);
+    f.coordination_number = 2. * simulation->contacts.n_touching() / static_cast<double>(f.n_particles);
   }
   if (parameters.pictures)
   {
@@ -232,9 +232,9 @@ void SampleRun::record()
 {
   const dem::Simulation &s = *simulation;
   s.check_finite();
-  const std::vector<dem::TouchingContact> contacts = s.pairs.touching(s.particles);
+  const std::vector<dem::TouchingContact> contacts = s.contacts.touching(s.particles);
   const double volume = s.particles.cell.volume();
-  const dem::AssemblyMeasures m = dem::measure_assembly(s.particles, contacts, {}, s.parameters().friction, volume);
+  const dem::AssemblyMeasures m = dem::measure_assembly(s.particles, contacts, {}, s.parameters().between_grains().friction, volume);
   const dem::GrainEnergy e = s.energy();
   if (s.n_steps == 0)
     first_balance = e.balance();
@@ -295,8 +295,8 @@ void SampleRun::record()
 
 void SampleRun::record_distributions(const double time)
 {
-  const std::vector<dem::TouchingContact> contacts = simulation->pairs.touching(simulation->particles);
-  distributions->append(distribution_row(time, stage, contacts, simulation->parameters().friction));
+  const std::vector<dem::TouchingContact> contacts = simulation->contacts.touching(simulation->particles);
+  distributions->append(distribution_row(time, stage, contacts, simulation->parameters().between_grains().friction));
   const double stable = simulation->stable_time_step(), used = simulation->parameters().time_step;
   if (used / stable >= f.time_step / f.stable_step)
   {
@@ -358,7 +358,7 @@ void SampleRun::read_snapshot()
   state.n_checks_passed = archive.read_double("loading/n_checks_passed");
   grain = dem::mean_grain(simulation->particles);
   solid_volume = dem::solid_volume(simulation->particles);
-  loading.emplace(program[stage], grain, parameters.simulation.grain.density);
+  loading.emplace(program[stage], grain, parameters.simulation.grain().density);
   loading->resume(state);
   // The snapshot was taken after a step: its row, if any, lies before.
   const double last = simulation->time - 0.5 * simulation->parameters().time_step;

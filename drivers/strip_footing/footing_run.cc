@@ -1,7 +1,7 @@
 #include "drivers/strip_footing/footing_run.h"
 
 #include "dem/core/error.h"
-#include "dem/io/archive.h"
+#include "dem/core/archive.h"
 #include "dem/io/pvd.h"
 #include "drivers/common/atomic_file.h"
 #include "drivers/common/interrupt.h"

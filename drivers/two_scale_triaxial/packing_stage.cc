@@ -20,7 +20,7 @@ PackingStage begin_packing(const TriaxialParameters &parameters)
 
   const double widening = std::cbrt(parameters.expected_solid_fraction / parameters.initial_solid_fraction);
   const dem::Box box{dem::Vec3::Zero(), std::max(widening, 1.) * edges};
-  dem::Particles particles = dem::add_at_random(shapes, box, parameters.simulation.grain.density, generator());
+  dem::Particles particles = dem::add_at_random(shapes, box, parameters.simulation.grain().density, generator());
   return {std::make_unique<dem::Simulation>(parameters.packing_simulation(), std::move(particles), dem::box_walls(box)),
           dem::Compression(parameters.compression)};
 }
@@ -30,8 +30,8 @@ PackingFigures packing_figures(const dem::Simulation &grains)
   PackingFigures figures;
   figures.box = dem::box_between(grains.walls);
   double solid = 0.;
-  for (const dem::Superquadric &shape : grains.particles.shape)
-    solid += dem::volume(shape);
+  for (const double volume : grains.particles.volume)
+    solid += volume;
   figures.solid_fraction = solid / figures.box.volume();
   figures.coordination_number = coordination_number(grains);
   return figures;
@@ -39,13 +39,13 @@ PackingFigures packing_figures(const dem::Simulation &grains)
 
 double coordination_number(const dem::Simulation &grains)
 {
-  return 2. * grains.pairs.n_touching() / grains.particles.size();
+  return 2. * grains.contacts.n_touching() / grains.particles.size();
 }
 
 double max_overlap_over_radius(const dem::Simulation &grains)
 {
-  return std::max(dem::largest_relative_overlap(grains.pairs.touching(grains.particles), grains.particles),
-                  dem::largest_relative_overlap(dem::touching_walls(grains.wall_contacts), grains.particles));
+  return std::max(dem::largest_relative_overlap(grains.contacts.touching(grains.particles), grains.particles),
+                  dem::largest_relative_overlap(grains.contacts.touching_walls(grains.particles), grains.particles));
 }
 
 } // namespace bergamo::driver

@@ -31,7 +31,7 @@ void TriaxialParameters::declare(ParameterFile &file)
 
   declare_distribution(file, "Grains", distribution);
   declare_grains(file, simulation);
-  file.add("Grains", "friction", simulation.friction, "Coulomb's coefficient between grains during the loading",
+  file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient between grains during the loading",
            Range::non_negative());
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
@@ -119,9 +119,9 @@ void TriaxialParameters::validate() const
            ": grains cannot be placed at random above about 0.3; 0.2 is safe");
     // Two of the smallest grains as spheres at an overlap of 1e-5 radii: no packing under load is softer.
     dem::Superquadric smallest{dem::Vec3::Constant(distribution.smallest_half_axis), 1., 1.};
-    const double mass = simulation.grain.density * dem::volume(smallest);
+    const double mass = simulation.grain().density * dem::volume(smallest);
     const double radius = distribution.smallest_half_axis;
-    const double modulus = 0.5 * simulation.grain.young_modulus / (1. - std::pow(simulation.grain.poisson_ratio, 2));
+    const double modulus = 0.5 * simulation.grain().young_modulus / (1. - std::pow(simulation.grain().poisson_ratio, 2));
     const double stiffness = 2. * modulus * std::sqrt(0.5 * radius * 1e-5 * radius);
     const double limit = 2. * std::sqrt(0.5 * mass / stiffness);
     for (const auto &[name, step] :
@@ -136,10 +136,17 @@ void TriaxialParameters::validate() const
   }
 }
 
+dem::SimulationParameters TriaxialParameters::loading_simulation() const
+{
+  dem::SimulationParameters loading = simulation;
+  loading.with_walls().damping_ratio = loading.between_grains().damping_ratio;
+  return loading;
+}
+
 dem::SimulationParameters TriaxialParameters::packing_simulation() const
 {
-  dem::SimulationParameters packing = simulation;
-  packing.friction = packing_friction;
+  dem::SimulationParameters packing = loading_simulation();
+  packing.between_grains().friction = packing_friction;
   packing.time_step = packing_time_step;
   packing.contact.overlap_tolerance = packing_overlap_tolerance;
   return packing;

@@ -60,6 +60,7 @@ struct TriaxialParameters
 
   /// The grains' parameters while they are packed.
   dem::SimulationParameters packing_simulation() const;
+  dem::SimulationParameters loading_simulation() const; ///< walls damp as the grains do
 
   bool has_grains() const { return kind != ModelKind::continuum; }
   bool has_continuum() const { return kind != ModelKind::grains; }

@@ -163,7 +163,7 @@ void TriaxialRun::begin_loading()
     for (dem::PlaneWall &wall : grains->walls)
       wall.velocity.setZero();
     grains->rest();
-    grains->change(parameters.simulation);
+    grains->change(parameters.loading_simulation());
     state.reference_by_id = places_by_id(*grains);
   }
   specimen = std::make_unique<Specimen>(parameters, std::move(grains), state.box, state.reference_by_id);
@@ -336,7 +336,7 @@ Summary TriaxialRun::summary() const
   figures.time_step_s = specimen->time_step();
   figures.stable_time_step_s = state.smallest_stable_step;
   figures.energy_residual = largest_work > 0. ? state.largest_residual / largest_work : 0.;
-  figures.undecided_contacts = grains ? grains->pairs.n_undecided : 0;
+  figures.undecided_contacts = grains ? grains->contacts.n_undecided() : 0;
   figures.max_overlap_over_radius = largest_overlap;
   summary.set(figures);
   if (grains)

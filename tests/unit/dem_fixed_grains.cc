@@ -19,7 +19,7 @@ TEST_CASE("a fixed grain stays where it is and carries what falls on it")
   particles.fix(0);
   particles.fix(1);
   SimulationParameters parameters;
-  parameters.grain.young_modulus = 1e8;
+  parameters.grain().young_modulus = 1e8;
   parameters.time_step = 2e-6;
   parameters.gravity = Vec3(0., 0., -9.81);
   Simulation simulation(parameters, particles, {{Vec3::Zero(), Vec3::UnitZ()}});
@@ -28,7 +28,7 @@ TEST_CASE("a fixed grain stays where it is and carries what falls on it")
   for (int n = 0; n < 2000; ++n)
   {
     simulation.compute_forces();
-    const auto lower = simulation.index_of_id[0], upper = simulation.index_of_id[2];
+    const auto lower = simulation.index_of(0), upper = simulation.index_of(2);
     const Vec3 &force = simulation.particles.force[upper];
     CHECK((simulation.particles.force[lower] + force).norm() == 0.);
     largest_force = std::max(largest_force, force.norm());
@@ -37,7 +37,7 @@ TEST_CASE("a fixed grain stays where it is and carries what falls on it")
   CHECK(largest_force > 10. * particles.mass[2] * 9.81); // it did land
   for (const std::int64_t id : {0, 1})
   {
-    const auto i = simulation.index_of_id[id];
+    const auto i = simulation.index_of(id);
     CHECK(simulation.particles.position[i] == particles.position[id]);
     CHECK(simulation.particles.velocity[i].norm() == 0.);
     CHECK(simulation.particles.angular_velocity[i].norm() == 0.);

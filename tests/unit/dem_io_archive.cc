@@ -1,5 +1,5 @@
 #include "dem/core/error.h"
-#include "dem/io/archive.h"
+#include "dem/core/archive.h"
 
 #include "tests/temporary_folder.h"
 #include <bit>

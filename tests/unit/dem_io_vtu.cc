@@ -126,7 +126,7 @@ TEST_CASE("grains are written as closed surfaces of their true volume")
   for (const auto &[edge, n] : edges)
     CHECK((n == 1 && edges.count({edge.second, edge.first}) == 1));
   for (std::size_t grain = 0; grain < 3; ++grain)
-    CHECK(enclosed[grain] == Approx(volume(particles.shape[grain])).epsilon(0.03));
+    CHECK(enclosed[grain] == Approx(volume(particles.parts.shape[grain])).epsilon(0.03));
 }
 
 TEST_CASE("every written point lies on its grain")
@@ -143,8 +143,8 @@ TEST_CASE("every written point lies on its grain")
     const Vec3 body = particles.orientation[grain].conjugate() *
                       (Vec3(points[3 * i], points[3 * i + 1], points[3 * i + 2]) - particles.position[grain]);
     // F is of degree 2/eps in the distance: take it back to the distance.
-    const double f = inside_outside(particles.shape[grain], body);
-    CHECK(std::pow(f, particles.shape[grain].eps2 / 2.) == Approx(1.).epsilon(1e-5));
+    const double f = inside_outside(particles.parts.shape[grain], body);
+    CHECK(std::pow(f, particles.parts.shape[grain].eps2 / 2.) == Approx(1.).epsilon(1e-5));
   }
 }
 
@@ -168,8 +168,8 @@ TEST_CASE("the volume drawn stays near the true one over all shapes")
       enclosed[cell / 288] += point(corners[begin]).dot(point(corners[k]).cross(point(corners[k + 1]))) / 6.;
   for (std::size_t grain = 0; grain < particles.size(); ++grain)
   {
-    INFO("eps " << particles.shape[grain].eps1 << " " << particles.shape[grain].eps2);
-    CHECK(enclosed[grain] == Approx(volume(particles.shape[grain])).epsilon(0.03));
+    INFO("eps " << particles.parts.shape[grain].eps1 << " " << particles.parts.shape[grain].eps2);
+    CHECK(enclosed[grain] == Approx(volume(particles.parts.shape[grain])).epsilon(0.03));
   }
 }
 

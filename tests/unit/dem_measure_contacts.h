@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/force/pair_contacts.h"
+#include "dem/force/contacts.h"
 
 #include <cmath>
 #include <cstdint>

@@ -31,9 +31,9 @@ Simulation closing_box()
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles.weight[i] = 1. - 0.02 * static_cast<double>(i);
   SimulationParameters p;
-  p.grain.young_modulus = p.wall.young_modulus = 50e6;
-  p.friction = 0.4;
-  p.wall_friction = 0.;
+  p.grain().young_modulus = p.wall().young_modulus = 50e6;
+  p.between_grains().friction = 0.4;
+  p.with_walls().friction = 0.;
   p.time_step = 2e-7;
   Box box;
   box.low = Vec3::Zero();
@@ -61,7 +61,7 @@ TEST_CASE("two spheres pressed together give a compression along their branch, w
   particles.weight = {0.2, 0.8};
   Simulation simulation(SimulationParameters(), particles, {});
   simulation.compute_forces();
-  const std::vector<TouchingContact> contacts = simulation.pairs.touching(simulation.particles);
+  const std::vector<TouchingContact> contacts = simulation.contacts.touching(simulation.particles);
   REQUIRE(contacts.size() == 1);
   CHECK((contacts[0].branch - Vec3(1.999e-3, 0., 0.)).norm() < 1e-18);
 
@@ -130,10 +130,10 @@ TEST_CASE("contacts in a packing between smooth walls give the walls' pressure")
   const Threads one_thread(1);
   const Simulation simulation = closing_box();
   const Particles &p = simulation.particles;
-  const std::vector<TouchingContact> pairs = simulation.pairs.touching(p),
-                                     walls = touching_walls(simulation.wall_contacts);
-  REQUIRE(simulation.pairs.spheres.size() > 5); // contacts of both kinds
-  REQUIRE(simulation.pairs.grains.size() > 20);
+  const std::vector<TouchingContact> pairs = simulation.contacts.touching(p),
+                                     walls = simulation.contacts.touching_walls(simulation.particles);
+  REQUIRE(simulation.contacts.sphere_sphere[0].n_touching() > 5); // contacts of both kinds
+  REQUIRE(simulation.contacts.grain_grain[0].n_touching() > 20);
   REQUIRE(walls.size() > 30);
 
   // Sum of what the contacts of every grain do about its centre: force_moment of pairs and walls = sum x_c (x) f over

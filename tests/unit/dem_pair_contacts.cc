@@ -29,7 +29,7 @@ TEST_CASE("a contact counts with the weight at its place between the centres")
   plain.compute_forces();
   weighted.compute_forces();
   REQUIRE(plain.particles.force[0].norm() > 0.1);
-  CHECK(weighted.pairs.touching(weighted.particles)[0].state.weight == Approx(0.5).epsilon(1e-12));
+  CHECK(weighted.contacts.touching(weighted.particles)[0].state.weight == Approx(0.5).epsilon(1e-12));
   CHECK((weighted.particles.force[0] - 0.5 * plain.particles.force[0]).norm() <
         1e-12 * plain.particles.force[0].norm());
   CHECK((weighted.particles.force[0] + weighted.particles.force[1]).norm() == 0.);

@@ -29,8 +29,8 @@ int count_near_pairs(const Particles &p, const PackingSpace &space)
       if (line.norm() >= p.bounding_radius[i] + p.bounding_radius[j])
         continue;
       ++n_near;
-      const ContactGeometry g = find_contact(make_pose(p.shape[i], Vec3::Zero(), p.orientation[i]),
-                                             make_pose(p.shape[j], line, p.orientation[j]));
+      const ContactGeometry g = find_contact(make_pose(p.parts.shape[i], Vec3::Zero(), p.orientation[i]),
+                                             make_pose(p.parts.shape[j], line, p.orientation[j]));
       REQUIRE(g.status == ContactStatus::separated);
     }
   return n_near;
@@ -43,14 +43,14 @@ std::vector<Vec3> surface_of(const Particles &p, const std::size_t i)
   std::vector<Vec3> points;
   for (int j = -16; j <= 16; ++j)
     for (int k = -16; k < 16; ++k)
-      points.push_back(p.position[i] + p.orientation[i] * surface_point(p.shape[i], 0.5 * pi * j / 16, pi * k / 16));
+      points.push_back(p.position[i] + p.orientation[i] * surface_point(p.parts.shape[i], 0.5 * pi * j / 16, pi * k / 16));
   return points;
 }
 
 double solid_volume(const Particles &p)
 {
   double sum = 0.;
-  for (const Superquadric &grain : p.shape)
+  for (const Superquadric &grain : p.parts.shape)
     sum += volume(grain);
   return sum;
 }
@@ -109,8 +109,8 @@ TEST_CASE("sand in a periodic cube of 10 mm at a solid fraction of 0.55")
   std::vector<double> diameters, expected;
   for (std::size_t i = 0; i < n; ++i)
   {
-    REQUIRE((p.shape[i].half_axes - report.size_factor * drawn[i].half_axes).norm() < 1e-14);
-    diameters.push_back(2. * equivalent_radius(p.shape[i]));
+    REQUIRE((p.parts.shape[i].half_axes - report.size_factor * drawn[i].half_axes).norm() < 1e-14);
+    diameters.push_back(2. * equivalent_radius(p.parts.shape[i]));
   }
   // And another sample of the sand does not tell from them: two-sided Kolmogorov-Smirnov, level 0.001.
   for (int i = 0; i < 20000; ++i)
@@ -125,7 +125,7 @@ TEST_CASE("sand in a periodic cube of 10 mm at a solid fraction of 0.55")
     for (std::size_t i = 0; i < n; ++i)
     {
       int d;
-      is_longest ? p.shape[i].half_axes.maxCoeff(&d) : p.shape[i].half_axes.minCoeff(&d);
+      is_longest ? p.parts.shape[i].half_axes.maxCoeff(&d) : p.parts.shape[i].half_axes.minCoeff(&d);
       const Vec3 axis = p.orientation[i] * Vec3::Unit(d);
       moments += axis * axis.transpose() / static_cast<double>(n);
     }
@@ -135,7 +135,7 @@ TEST_CASE("sand in a periodic cube of 10 mm at a solid fraction of 0.55")
   // No place is preferred: solid volume in eighths of the cube, and in slabs across each edge. Independent grains would
   // scatter by sqrt(N <v^2>/<v>^2 p (1 - p)) / N in a share p; in a packing they keep apart, and scatter less.
   double square = 0., all = solid_volume(p);
-  for (const Superquadric &grain : p.shape)
+  for (const Superquadric &grain : p.parts.shape)
     square += std::pow(volume(grain), 2);
   const auto bound = [&](const double share) { return 4. * std::sqrt(square * share * (1. - share)) / all; };
   std::vector<double> eighths(8, 0.), slabs(3 * 5, 0.);
@@ -146,9 +146,9 @@ TEST_CASE("sand in a periodic cube of 10 mm at a solid fraction of 0.55")
     {
       const double x = p.position[i][d] / 10e-3;
       eighth += (x >= 0.5 ? 1 : 0) << d;
-      slabs[5 * d + std::min(4, static_cast<int>(5. * x))] += volume(p.shape[i]) / all;
+      slabs[5 * d + std::min(4, static_cast<int>(5. * x))] += volume(p.parts.shape[i]) / all;
     }
-    eighths[eighth] += volume(p.shape[i]) / all;
+    eighths[eighth] += volume(p.parts.shape[i]) / all;
   }
   for (const double share : eighths)
     CHECK(std::abs(share - 0.125) < bound(0.125));
@@ -259,7 +259,7 @@ TEST_CASE("a packing by its sieve curve")
   CHECK(packed.report.has_reached_target);
   CHECK(packed.report.smallest_size == 1.);
   CHECK(count_near_pairs(packed.particles, space) > 1000);
-  for (const Superquadric &grain : packed.particles.shape)
+  for (const Superquadric &grain : packed.particles.parts.shape)
   {
     REQUIRE(sieve_size(grain) >= packed.report.size_factor * curve.points.front().size * (1. - 1e-12));
     REQUIRE(sieve_size(grain) <= packed.report.size_factor * curve.points.back().size * (1. + 1e-12));

@@ -19,11 +19,11 @@ namespace
 SimulationParameters parameters()
 {
   SimulationParameters p;
-  p.grain = {1e8, 0.2, 2650.};
-  p.wall = p.grain;
-  p.friction = 0.3;
-  p.wall_friction = 0.1;
-  p.damping_ratio = 0.5;
+  p.grain() = {1e8, 0.2, 2650.};
+  p.wall() = p.grain();
+  p.between_grains().friction = 0.3;
+  p.with_walls().friction = 0.1;
+  p.set_damping(0.5);
   p.time_step = 4e-6;
   p.contact.overlap_tolerance = 0.; // a search in every step: the geometry is as exact as that of the spheres
   return p;
@@ -39,7 +39,7 @@ Simulation dense_packing()
     shapes[i] = {Vec3::Constant(equivalent_radius(shapes[i])), 1., 1.};
   SimulationParameters p = parameters();
   p.contact.overlap_tolerance = 1e-4;
-  Simulation s(p, add_at_random(shapes, box, p.grain.density, generator()), box_walls(box));
+  Simulation s(p, add_at_random(shapes, box, p.grain().density, generator()), box_walls(box));
   CompressionParameters c;
   c.largest_rate = 100.;
   c.longest_time = 10.;
@@ -57,10 +57,10 @@ Simulation begin(const Simulation &packing, const double exponent)
   const Particles &p = packing.particles;
   for (std::size_t i = 0; i < p.size(); ++i)
   {
-    Superquadric shape = p.shape[i];
+    Superquadric shape = p.parts.shape[i];
     if (shape.is_sphere())
       shape.eps1 = shape.eps2 = exponent;
-    grains.add(shape, parameters().grain.density, p.position[i], p.orientation[i]);
+    grains.add(shape, parameters().grain().density, p.position[i], p.orientation[i]);
   }
   std::vector<PlaneWall> walls;
   for (const PlaneWall &wall : packing.walls)
@@ -82,9 +82,9 @@ TEST_CASE("spheres move the same by their own path and as superquadrics of expon
   Simulation spheres = begin(packing, 1.), superquadrics = begin(packing, 1. + 1e-12);
   const std::size_t n = spheres.particles.size();
   const auto is_sphere = [](const Superquadric &shape) { return shape.is_sphere(); };
-  REQUIRE(2 * std::count_if(spheres.particles.shape.begin(), spheres.particles.shape.end(), is_sphere) >=
+  REQUIRE(2 * std::count_if(spheres.particles.parts.shape.begin(), spheres.particles.parts.shape.end(), is_sphere) >=
           static_cast<int>(n));
-  REQUIRE(std::none_of(superquadrics.particles.shape.begin(), superquadrics.particles.shape.end(), is_sphere));
+  REQUIRE(std::none_of(superquadrics.particles.parts.shape.begin(), superquadrics.particles.parts.shape.end(), is_sphere));
   for (int i = 0; i < 3000; ++i)
   {
     spheres.step();
@@ -92,9 +92,9 @@ TEST_CASE("spheres move the same by their own path and as superquadrics of expon
   }
   spheres.compute_forces();
   superquadrics.compute_forces();
-  CHECK(spheres.pairs.spheres.size() > 50); // else nothing was compared
-  CHECK(superquadrics.pairs.spheres.size() == 0);
-  CHECK(superquadrics.pairs.n_touching() == spheres.pairs.n_touching());
+  CHECK(spheres.contacts.sphere_sphere[0].n_touching() > 50); // else nothing was compared
+  CHECK(superquadrics.contacts.sphere_sphere[0].n_touching() == 0);
+  CHECK(superquadrics.contacts.n_touching() == spheres.contacts.n_touching());
 
   // The shapes differ by 1e-12 of a radius, 4e-16 m, searches by some 1e-16 m more. Contacts of grains that are held on
   // all sides keep such differences small; what grows them are the few loose grains, which may be hit hundreds of times
@@ -105,7 +105,7 @@ TEST_CASE("spheres move the same by their own path and as superquadrics of expon
   for (std::size_t i = 0; i < n; ++i)
   {
     const Particles &a = spheres.particles, &b = superquadrics.particles;
-    const auto j = superquadrics.index_of_id[a.id[i]];
+    const auto j = superquadrics.index_of(a.id[i]);
     apart = std::max(apart, (a.position[i] - b.position[j]).norm());
     turned = std::max(turned, a.orientation[i].angularDistance(b.orientation[j]));
     moved = std::max(moved, (a.position[i] - packing.particles.position[a.id[i]]).norm());

@@ -157,13 +157,13 @@ TEST_CASE("randomly added grains neither overlap nor leave the box")
   std::vector<std::vector<Vec3>> surface(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)
   {
-    solid += volume(p.shape[i]);
-    CHECK(p.mass[i] == Approx(2650. * volume(p.shape[i])).epsilon(1e-14));
+    solid += volume(p.parts.shape[i]);
+    CHECK(p.mass[i] == Approx(2650. * volume(p.parts.shape[i])).epsilon(1e-14));
     // Sampled, not by the support function that the placing uses.
     for (int j = -12; j <= 12; ++j)
       for (int k = -12; k < 12; ++k)
         surface[i].push_back(p.position[i] +
-                             p.orientation[i] * surface_point(p.shape[i], 0.5 * pi * j / 12, pi * k / 12));
+                             p.orientation[i] * surface_point(p.parts.shape[i], 0.5 * pi * j / 12, pi * k / 12));
     for (const Vec3 &x : surface[i])
     {
       REQUIRE((x - box.low).minCoeff() > -1e-15);
@@ -178,11 +178,11 @@ TEST_CASE("randomly added grains neither overlap nor leave the box")
       if (i != j && (p.position[i] - p.position[j]).norm() < p.bounding_radius[i] + p.bounding_radius[j])
       {
         ++n_near;
-        CHECK(find_contact(make_pose(p.shape[i], p.position[i], p.orientation[i]),
-                           make_pose(p.shape[j], p.position[j], p.orientation[j]))
+        CHECK(find_contact(make_pose(p.parts.shape[i], p.position[i], p.orientation[i]),
+                           make_pose(p.parts.shape[j], p.position[j], p.orientation[j]))
                   .status == ContactStatus::separated);
         for (const Vec3 &x : surface[i])
-          REQUIRE(inside_outside(p.shape[j], p.orientation[j].conjugate() * (x - p.position[j])) > 1.);
+          REQUIRE(inside_outside(p.parts.shape[j], p.orientation[j].conjugate() * (x - p.position[j])) > 1.);
       }
   CHECK(n_near > 50); // else nothing was tried
   CHECK(pressed_positions(make(5)) == pressed_positions(p));
@@ -204,10 +204,10 @@ TEST_CASE("a packing compressed to 1 kPa rests there")
 {
   omp_set_num_threads(1); // a team costs more than it gains on 200 grains
   SimulationParameters parameters;
-  parameters.grain = {1e8, 0.2, 2650.};
-  parameters.wall = parameters.grain;
-  parameters.friction = 0.24;
-  parameters.damping_ratio = 0.7;
+  parameters.grain() = {1e8, 0.2, 2650.};
+  parameters.wall() = parameters.grain();
+  parameters.between_grains().friction = 0.24;
+  parameters.set_damping(0.7);
   parameters.time_step = 4e-6;
   CompressionParameters aim;
   aim.pressure = 1000.;
@@ -224,7 +224,7 @@ TEST_CASE("a packing compressed to 1 kPa rests there")
     compression.step(simulation);
   REQUIRE(compression.is_finished());
   simulation.check_finite();
-  CHECK(simulation.pairs.n_undecided == 0);
+  CHECK(simulation.contacts.n_undecided() == 0);
 
   simulation.compute_forces();
   // At its five last checks every pressure lay within 1 % and the unbalanced force below 1 %.
@@ -241,7 +241,7 @@ TEST_CASE("a packing compressed to 1 kPa rests there")
   // Sand at low pressure between smooth walls: looser than its bulk (0.6) near the walls, denser than the loosest
   // (0.5); above 0.75 grains would have to overlap.
   double solid = 0.;
-  for (const Superquadric &g : simulation.particles.shape)
+  for (const Superquadric &g : simulation.particles.parts.shape)
     solid += volume(g);
   const double fraction = solid / box_between(simulation.walls).volume();
   CAPTURE(n, fraction);
@@ -252,7 +252,7 @@ TEST_CASE("a packing compressed to 1 kPa rests there")
   // 0.2 mm, E* = 52 MPa: d = (f/(4/3 E* sqrt(R*)))^(2/3) = 4 micrometres, 1 % of a radius.
   double deepest = 0., kinetic = 0.;
   std::size_t n_touching = 0;
-  for (const TouchingContact &contact : simulation.pairs.touching(simulation.particles))
+  for (const TouchingContact &contact : simulation.contacts.touching(simulation.particles))
   {
     const ContactState<double> &s = contact.state;
     deepest = std::max(deepest, s.overlap);
@@ -262,8 +262,7 @@ TEST_CASE("a packing compressed to 1 kPa rests there")
   CHECK(deepest > 0.);
   CHECK(deepest < 4e-6);
   // A stable packing of frictional grains has more than four contacts a grain, walls counted once.
-  for (std::size_t k = 0; k < simulation.wall_contacts.size(); ++k)
-    n_touching += simulation.wall_contacts.is_touching(k);
+  n_touching += simulation.contacts.n_touching_walls();
   CHECK(2. * n_touching / simulation.particles.size() > 4.);
 
   // At rest: the kinetic energy is far below the elastic one.

@@ -24,10 +24,10 @@ namespace
 SimulationParameters sand()
 {
   SimulationParameters p;
-  p.grain = {50e9, 0.2, 2650.};
-  p.wall = p.grain;
-  p.friction = 0.24;
-  p.damping_ratio = 0.9;
+  p.grain() = {50e9, 0.2, 2650.};
+  p.wall() = p.grain();
+  p.between_grains().friction = 0.24;
+  p.set_damping(0.9);
   p.time_step = 1.2e-7; // stable up to 2.2e-7 s at that pressure
   return p;
 }
@@ -142,7 +142,7 @@ TEST_CASE("the mean stress over branches equals that over the faces up to the gr
       s.step();
     s.compute_forces();
     Mat3 branches = Mat3::Zero(), faces = Mat3::Zero();
-    for (const TouchingContact &c : s.pairs.touching(s.particles))
+    for (const TouchingContact &c : s.contacts.touching(s.particles))
     {
       const Vec3 force = c.state.weight * c.state.forces.on_body1(c.state.normal);
       branches += c.branch * force.transpose();
@@ -152,8 +152,8 @@ TEST_CASE("the mean stress over branches equals that over the faces up to the gr
     for (std::size_t i = 0; i < s.particles.size(); ++i)
       places += s.particles.position[i].cwiseProduct(s.particles.force[i]);
     const double scale = branches.norm();
-    CHECK((branches.diagonal() - s.pairs.virial().branch).norm() < 1e-13 * scale);
-    CHECK((faces.diagonal() - s.pairs.virial().image).norm() < 1e-13 * scale);
+    CHECK((branches.diagonal() - s.contacts.virial().branch).norm() < 1e-13 * scale);
+    CHECK((faces.diagonal() - s.contacts.virial().image).norm() < 1e-13 * scale);
     CHECK((branches.diagonal() - faces.diagonal() + places).norm() < 1e-12 * scale);
     // At rest both agree, and the stress is symmetric.
     CHECK((branches.diagonal() - faces.diagonal()).norm() < 0.01 * scale);
@@ -187,12 +187,12 @@ TEST_CASE("a periodic cell keeps momentum and the balance of energy while it is 
   std::set<std::int64_t> crossed;
   for (int k = 0; k < 12000; ++k)
   {
-    const std::int64_t n_rebuilds = s.n_rebuilds;
+    const std::int64_t n_rebuilds = s.n_rebuilds();
     loaded.step(controls);
-    if (s.n_rebuilds == n_rebuilds)
+    if (s.n_rebuilds() == n_rebuilds)
       continue;
     for (std::size_t i = 0; i < ids.size(); ++i)
-      if ((s.particles.position[s.index_of_id[ids[i]]] - before[i]).norm() > 3e-3)
+      if ((s.particles.position[s.index_of(ids[i])] - before[i]).norm() > 3e-3)
         crossed.insert(ids[i]);
     before = s.particles.position;
     ids = s.particles.id;
@@ -224,7 +224,7 @@ TEST_CASE("a cell copied 2 x 2 x 2 has the same stress")
   {
     const Vec3 shift = Vec3(image & 1, image >> 1 & 1, image >> 2 & 1).cwiseProduct(edges);
     for (std::size_t i = 0; i < single.particles.size(); ++i)
-      many.add(single.particles.shape[i], 2650., single.particles.position[i] + shift, single.particles.orientation[i]);
+      many.add(single.particles.parts.shape[i], 2650., single.particles.position[i] + shift, single.particles.orientation[i]);
   }
   many.cell = PeriodicCell(2. * edges);
   Simulation copied(sand(), many, {});
@@ -240,7 +240,7 @@ TEST_CASE("a cell copied 2 x 2 x 2 has the same stress")
   }
   fresh.compute_forces();
   copied.compute_forces();
-  CHECK(copied.pairs.n_touching() == 8 * fresh.pairs.n_touching());
+  CHECK(copied.contacts.n_touching() == 8 * fresh.contacts.n_touching());
   CHECK((copied.cell_stress() - fresh.cell_stress()).norm() < 1e-9 * fresh.cell_stress().norm());
 }
 

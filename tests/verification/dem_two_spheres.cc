@@ -23,9 +23,9 @@ constexpr double radius = 1e-3;
 SimulationParameters elastic_parameters()
 {
   SimulationParameters p;
-  p.grain = {1e9, 0.25, 2500.};
-  p.friction = 0.;
-  p.damping_ratio = 0.;
+  p.grain() = {1e9, 0.25, 2500.};
+  p.between_grains().friction = 0.;
+  p.set_damping(0.);
   p.contact.overlap_tolerance = 0.; // a search in every step
   p.time_step = 1e-8;
   return p;
@@ -48,14 +48,14 @@ struct Pair
 
   Pair(const SimulationParameters &p, const Particles &grains) : simulation(p, grains, {}) {}
 
-  std::int32_t index(const int id) const { return simulation.index_of_id[id]; }
+  std::int32_t index(const int id) const { return simulation.index_of(id); }
   Vec3 position(const int id) const { return simulation.particles.position[index(id)]; }
   Vec3 velocity(const int id) const { return simulation.particles.velocity[index(id)]; }
   Vec3 force(const int id) const { return simulation.particles.force[index(id)]; }
   Vec3 torque(const int id) const { return simulation.particles.torque[index(id)]; }
   double mass(const int id) const { return simulation.particles.mass[index(id)]; }
-  std::vector<TouchingContact> contacts() const { return simulation.pairs.touching(simulation.particles); }
-  bool touches() const { return simulation.pairs.n_touching() > 0; }
+  std::vector<TouchingContact> contacts() const { return simulation.contacts.touching(simulation.particles); }
+  bool touches() const { return simulation.contacts.n_touching() > 0; }
 
   Vec3 momentum() const { return mass(0) * velocity(0) + mass(1) * velocity(1); }
 
@@ -178,13 +178,13 @@ TEST_CASE("the force between two pressed spheres is Hertz's")
       Pair pair(p, grains);
       pair.simulation.compute_forces();
       const double expected =
-          4. / 3. * effective_modulus(p.grain) * std::sqrt(r1 * r2 / (r1 + r2)) * std::pow(overlap, 1.5);
+          4. / 3. * effective_modulus(p.grain()) * std::sqrt(r1 * r2 / (r1 + r2)) * std::pow(overlap, 1.5);
       CHECK(std::abs(pair.force(0).norm() / expected - 1.) < 1e-10);
       CHECK((pair.force(0) + expected * n).norm() < 1e-10 * expected); // body 1 is pushed away from body 2
       CHECK(pair.force(0) == -pair.force(1));
       // A force through the centres: arm times rounding of the normal.
       CHECK(pair.torque(0).norm() < 1e-14 * expected * r1);
-      CHECK(pair.simulation.pairs.n_undecided == 0);
+      CHECK(pair.simulation.contacts.n_undecided() == 0);
     }
 }
 
@@ -197,8 +197,8 @@ TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
     for (int mode = 0; mode < 4; ++mode)
     {
       SimulationParameters p = elastic_parameters();
-      p.grain.poisson_ratio = nu;
-      p.friction = 1e3; // sticks
+      p.grain().poisson_ratio = nu;
+      p.between_grains().friction = 1e3; // sticks
       const double overlap = 1e-6;
       Particles grains;
       grains.add(sphere(radius), 2500., Vec3::Zero(), Quaternion::Identity());
@@ -220,7 +220,7 @@ TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
         direction = -1.;
       Pair pair(p, grains);
       pair.simulation.compute_forces();
-      const double shear_modulus = p.grain.young_modulus / (2. * (1. + nu));
+      const double shear_modulus = p.grain().young_modulus / (2. * (1. + nu));
       const double stiffness = 4. * shear_modulus * std::sqrt(0.5 * radius * overlap) / (2. - nu);
       const Vec3 tangential(pair.force(0)[0], pair.force(0)[1], 0.);
       CAPTURE(nu, mode);
@@ -237,7 +237,7 @@ TEST_CASE("an undamped impact gives back the speed, at second order in the time 
   const Threads one_thread(1);
   // Against Hertz's impact: largest overlap and duration; speeds after over before. Leapfrog is of second order; the
   // error depends on where within a step the contact begins, so its root mean square over 16 beginnings is measured.
-  const Material m = elastic_parameters().grain;
+  const Material m = elastic_parameters().grain();
   const double v = 0.5;
   const HertzImpact hertz(m, 2. * v);
   std::vector<double> errors;
@@ -286,14 +286,14 @@ TEST_CASE("an undamped impact gives back the speed, at second order in the time 
 TEST_CASE("a dashpot lowers the restitution, more where it is stronger, and keeps the momentum")
 {
   const Threads one_thread(1);
-  const Material m = elastic_parameters().grain;
+  const Material m = elastic_parameters().grain();
   const double v = 0.5;
   const HertzImpact hertz(m, 2. * v);
   double last = 1.;
   for (const double zeta : {0.02, 0.1, 0.3, 0.9})
   {
     SimulationParameters p = elastic_parameters();
-    p.damping_ratio = zeta;
+    p.set_damping(zeta);
     p.time_step = hertz.duration / 500.;
     Particles grains = head_on(v, 1e-7);
     const Vec3 drift(0.1, 0.2, -0.3);
@@ -337,8 +337,8 @@ TEST_CASE("an oblique frictional impact keeps linear and angular momentum about 
   for (int run = 0; run < 6; ++run)
   {
     SimulationParameters p = elastic_parameters();
-    p.friction = run % 2 ? 0.3 : 10.;
-    p.damping_ratio = run % 3 ? 0.2 : 0.;
+    p.between_grains().friction = run % 2 ? 0.3 : 10.;
+    p.set_damping(run % 3 ? 0.2 : 0.);
     p.time_step = 2e-8;
     if (run >= 4)
       p.contact.overlap_tolerance = 2e-5;
@@ -375,8 +375,8 @@ TEST_CASE("the energy balance of colliding grains of any shape closes")
     for (int fine = 0; fine < 2; ++fine)
     {
       SimulationParameters p = elastic_parameters();
-      p.friction = 0.3;
-      p.damping_ratio = run % 2 ? 0.2 : 0.;
+      p.between_grains().friction = 0.3;
+      p.set_damping(run % 2 ? 0.2 : 0.);
       p.time_step = fine ? 0.5e-8 : 2e-8;
       Pair pair(p, oblique(shape1, shape2, 20 + run));
       bool met = false;
@@ -392,7 +392,7 @@ TEST_CASE("the energy balance of colliding grains of any shape closes")
           const auto &omega = pair.simulation.particles.angular_velocity;
           turned.spin = turned.normal.dot(0.5 * p.time_step * (omega[0] + omega[1]));
           take_geometry(turned, now.normal, turned.overlap, RelativeCurvature<double>{1., 1., now.major_axis},
-                        elastic_pair(p.grain, p.grain));
+                        elastic_pair(p.grain(), p.grain()));
           turned.stiffness = now.stiffness;
           const ContactEnergy old_energy = stored_energy(before[0].state), new_energy = stored_energy(turned);
           change += new_energy.normal + new_energy.tangential - old_energy.normal - old_energy.tangential;
@@ -427,8 +427,8 @@ TEST_CASE("a collision does not depend on the frame")
   for (int run = 0; run < 4; ++run)
   {
     SimulationParameters p = elastic_parameters();
-    p.friction = 0.3;
-    p.damping_ratio = 0.1;
+    p.between_grains().friction = 0.3;
+    p.set_damping(0.1);
     p.time_step = 2e-8;
     const Particles grains =
         run == 0 ? oblique(sphere(radius), sphere(radius), 40)
@@ -450,7 +450,7 @@ TEST_CASE("a collision does not depend on the frame")
       other.simulation.step();
     }
     if (run > 0) // spheres need no search
-      CHECK(one.simulation.pairs.n_searches > 100);
+      CHECK(one.simulation.contacts.n_searches() > 100);
     CHECK(one.simulation.energy().friction_loss > 0.); // they did meet
     for (int id = 0; id < 2; ++id)
     {
@@ -474,14 +474,14 @@ TEST_CASE("the forces of a pair that turns as one body turn with it")
   for (const int n : {500, 1000, 2000})
   {
     SimulationParameters p = elastic_parameters();
-    p.friction = 1e6; // no slip
+    p.between_grains().friction = 1e6; // no slip
     p.verlet_distance = 2.;
     Particles grains;
     const double distance = 2. * radius - overlap;
     grains.add(sphere(radius), 2500., Vec3(0., 0., -0.5 * distance), Quaternion::Identity());
     grains.add(sphere(radius), 2500., Vec3(0., 0., 0.5 * distance), Quaternion::Identity());
-    const double k = 4. * p.grain.young_modulus / (2. * (1. + p.grain.poisson_ratio)) *
-                     std::sqrt(0.5 * radius * overlap) / (2. - p.grain.poisson_ratio);
+    const double k = 4. * p.grain().young_modulus / (2. * (1. + p.grain().poisson_ratio)) *
+                     std::sqrt(0.5 * radius * overlap) / (2. - p.grain().poisson_ratio);
     const Vec3 first(6e-8, -4e-8, 0.); // shear
     grains.velocity[1] = first / p.time_step;
     Pair pair(p, grains);

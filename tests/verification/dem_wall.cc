@@ -28,11 +28,11 @@ PlaneWall floor_at(const double z, const Vec3 &normal = Vec3::UnitZ())
 SimulationParameters soft_parameters()
 {
   SimulationParameters p;
-  p.grain = {1e8, 0.25, 2500.};
-  p.wall = {3e8, 0.3, 7800.};
-  p.friction = 0.3;
-  p.wall_friction = 0.2;
-  p.damping_ratio = 0.5;
+  p.grain() = {1e8, 0.25, 2500.};
+  p.wall() = {3e8, 0.3, 7800.};
+  p.between_grains().friction = 0.3;
+  p.with_walls().friction = 0.2;
+  p.set_damping(0.5);
   p.time_step = 1e-6;
   return p;
 }
@@ -41,7 +41,7 @@ SimulationParameters soft_parameters()
 double wall_coefficient(const SimulationParameters &p)
 {
   const auto compliance = [](const Material &m) { return (1. - m.poisson_ratio * m.poisson_ratio) / m.young_modulus; };
-  return 4. / 3. * std::sqrt(radius) / (compliance(p.grain) + compliance(p.wall));
+  return 4. / 3. * std::sqrt(radius) / (compliance(p.grain()) + compliance(p.wall()));
 }
 
 /// A chain of pressed spheres along an oblique axis between two walls, in equilibrium to rounding.
@@ -56,14 +56,14 @@ Chain pressed_chain(const SimulationParameters &p, const int n, const double ove
 {
   const Vec3 axis = Vec3(0.3, -0.5, 0.7).normalized();
   Chain chain;
-  const double e = p.grain.young_modulus / (2. * (1. - p.grain.poisson_ratio * p.grain.poisson_ratio));
+  const double e = p.grain().young_modulus / (2. * (1. - p.grain().poisson_ratio * p.grain().poisson_ratio));
   const double gamma = 4. / 3. * std::sqrt(0.5 * radius) * e;
   const double force = gamma * std::pow(overlap, 1.5);
   chain.stiffness = 1.5 * gamma * std::sqrt(overlap);
   const double wall_overlap = std::pow(force / wall_coefficient(p), 2. / 3.);
   const double spacing = 2. * radius - overlap;
   for (int i = 0; i < n; ++i)
-    chain.grains.add(sphere, p.grain.density, (i * spacing) * axis, Quaternion::Identity());
+    chain.grains.add(sphere, p.grain().density, (i * spacing) * axis, Quaternion::Identity());
   chain.walls.resize(2);
   chain.walls[0].normal = axis;
   chain.walls[0].point = -(radius - wall_overlap) * axis;
@@ -84,7 +84,7 @@ TEST_CASE("a sphere settles on the floor at Hertz's static overlap")
     SimulationParameters p = soft_parameters();
     p.gravity = -9.81 * normal;
     Particles grains;
-    grains.add(sphere, p.grain.density, (radius + 1e-6) * normal, Quaternion(0.3, 0.1, 0.5, 0.7));
+    grains.add(sphere, p.grain().density, (radius + 1e-6) * normal, Quaternion(0.3, 0.1, 0.5, 0.7));
     Simulation simulation(p, grains, {floor_at(0., normal)});
     for (int i = 0; i < 50000; ++i)
       simulation.step();
@@ -111,14 +111,14 @@ TEST_CASE("the work of a moving wall is the energy that the grain gains")
   // A wall that comes at speed V hits a resting sphere without damping: it leaves at 2 V, so the wall has done 2 m V^2.
   // Leapfrog's second order: some hundred steps a contact give 1e-4.
   SimulationParameters p = soft_parameters();
-  p.damping_ratio = 0.;
+  p.set_damping(0.);
   p.contact.overlap_tolerance = 0.;
   const double speed = 0.1;
   for (const bool is_fine : {false, true})
   {
     p.time_step = is_fine ? 2.5e-7 : 1e-6;
     Particles grains;
-    grains.add(sphere, p.grain.density, Vec3(0., 0., radius + 1e-5), Quaternion::Identity());
+    grains.add(sphere, p.grain().density, Vec3(0., 0., radius + 1e-5), Quaternion::Identity());
     PlaneWall wall = floor_at(0.);
     wall.velocity = Vec3(0., 0., speed);
     Simulation simulation(p, grains, {wall});
@@ -126,7 +126,7 @@ TEST_CASE("the work of a moving wall is the energy that the grain gains")
     for (int i = 0; i < 100000; ++i)
     {
       simulation.step();
-      const bool touches = simulation.wall_contacts.size() > 0 && simulation.wall_contacts.is_touching(0);
+      const bool touches = simulation.contacts.n_touching_walls() > 0;
       met = met || touches;
       if (met && !touches)
         break;
@@ -153,7 +153,7 @@ TEST_CASE("the account stays closed when a wall is taken away")
   // which is none once the grain has left.
   SimulationParameters p = soft_parameters();
   Particles grains;
-  grains.add(sphere, p.grain.density, Vec3(0., 0., radius + 1e-6), Quaternion::Identity());
+  grains.add(sphere, p.grain().density, Vec3(0., 0., radius + 1e-6), Quaternion::Identity());
   PlaneWall wall = floor_at(0.);
   wall.velocity = Vec3(0., 0., 0.1);
   Simulation simulation(p, grains, {wall, floor_at(1., -Vec3::UnitZ())});
@@ -161,7 +161,7 @@ TEST_CASE("the account stays closed when a wall is taken away")
     simulation.step();
   simulation.compute_forces();
   REQUIRE(simulation.walls[0].work > 0.);
-  REQUIRE_FALSE(simulation.wall_contacts.is_touching(0));
+  REQUIRE(simulation.contacts.n_touching_walls() == 0);
   const double before = simulation.energy().balance();
   const double scale = simulation.energy().kinetic;
   simulation.remove_wall(0);
@@ -180,20 +180,20 @@ TEST_CASE("the stable time step of one sphere on a wall in closed form")
     for (const double zeta : {0., 0.2, 0.9, 2.})
     {
       SimulationParameters p = soft_parameters();
-      p.damping_ratio = zeta;
+      p.set_damping(zeta);
       const double overlap = 1e-6;
       Particles grains;
-      grains.add(sphere, p.grain.density, (radius - overlap) * normal, Quaternion::Identity());
+      grains.add(sphere, p.grain().density, (radius - overlap) * normal, Quaternion::Identity());
       Simulation simulation(p, grains, {floor_at(0., normal)});
       simulation.compute_forces();
       const double m = simulation.particles.mass[0], k = 1.5 * wall_coefficient(p) * std::sqrt(overlap);
       const double c = 2. * zeta * std::sqrt(k * m);
       const auto longest = [](const double s, const double d)
       { return 2. / s * (std::sqrt(0.25 * d * d + s) - 0.5 * d); };
-      const double g1 = p.grain.young_modulus / (2. * (1. + p.grain.poisson_ratio));
-      const double g2 = p.wall.young_modulus / (2. * (1. + p.wall.poisson_ratio));
+      const double g1 = p.grain().young_modulus / (2. * (1. + p.grain().poisson_ratio));
+      const double g2 = p.wall().young_modulus / (2. * (1. + p.wall().poisson_ratio));
       const double kt =
-          8. * std::sqrt(radius * overlap) / ((2. - p.grain.poisson_ratio) / g1 + (2. - p.wall.poisson_ratio) / g2);
+          8. * std::sqrt(radius * overlap) / ((2. - p.grain().poisson_ratio) / g1 + (2. - p.wall().poisson_ratio) / g2);
       const double arm = radius - 0.5 * overlap;
       const double normal_step = longest(k / m, c / m);
       const double sideways_step = longest(kt / m * (1. + 2.5 * arm * arm / radius / radius), 0.);
@@ -221,8 +221,8 @@ TEST_CASE("a pressed chain is stable just below the stable time step and not jus
   for (const double zeta : {0., 0.5})
   {
     SimulationParameters p = soft_parameters();
-    p.friction = p.wall_friction = 1e4;
-    p.damping_ratio = zeta;
+    p.between_grains().friction = p.with_walls().friction = 1e4;
+    p.set_damping(zeta);
     p.contact.overlap_tolerance = 0.;
     const double overlap = 1e-9;
     Chain chain = pressed_chain(p, 5, overlap);

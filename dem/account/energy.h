@@ -1,11 +1,5 @@
 #pragma once
 
-#include "dem/force/contact_law.h"
-#include "dem/state/particles.h"
-#include "dem/state/wall.h"
-
-#include <span>
-
 namespace bergamo::dem
 {
 
@@ -23,12 +17,13 @@ struct GrainEnergy
   double gravity_work = 0.;
   double external_work = 0.; ///< done by Particles::external_force
   double cell_work = 0.;     ///< done by the deformation of a periodic cell
+  double exchanged = 0.;     ///< brought in by grains and walls that were added, less what removed ones took away
 
   double stored() const { return kinetic + normal + tangential; }
   double balance() const
   {
     return stored() + friction_loss + viscous_loss - curvature_work - wall_work - gravity_work - external_work -
-           cell_work;
+           cell_work - exchanged;
   }
 };
 

@@ -1,4 +1,4 @@
-#include "dem/periodic/cell_work.h"
+#include "dem/account/cell_work.h"
 
 #include "dem/core/parallel.h"
 
@@ -24,26 +24,26 @@ double kick_power(const Particles &p, const double since)
 
 } // namespace
 
-void CellWork::book_contacts(const PeriodicCell &cell, const Vec3 &force, const double time_step)
+void CellWork::book_contacts(const PeriodicCell &cell, const Vec3 &force, const double drift)
 {
-  sum += half_kick + 0.5 * time_step * (image_force + force).dot(cell.rate);
+  sum += half_kick + 0.5 * drift * (image_force + force).dot(cell.drift_rate);
   half_kick = 0.;
   image_force = force;
 }
 
-double CellWork::at_this_step(const Particles &particles, const double time_step) const
+double CellWork::at_this_step(const Particles &particles, const double kick) const
 {
-  return sum + 0.5 * time_step * kick_power(particles, 0.);
+  return sum + 0.5 * kick * kick_power(particles, 0.);
 }
 
-void CellWork::begin_kick(const Particles &particles, const double time_step)
+void CellWork::begin_kick(const Particles &particles, const double kick)
 {
-  sum = at_this_step(particles, time_step);
+  sum = at_this_step(particles, kick);
 }
 
-void CellWork::end_kick(const Particles &particles, const double time_step)
+void CellWork::end_kick(const Particles &particles, const double kick, const double drift)
 {
-  half_kick = 0.5 * time_step * kick_power(particles, time_step);
+  half_kick = 0.5 * kick * kick_power(particles, drift);
 }
 
 double return_to_cell(Particles &particles)
@@ -59,6 +59,7 @@ double return_to_cell(Particles &particles)
     const double old_square = velocity.squaredNorm();
     particles.position[i] -= edges_over.cwiseProduct(cell.edges);
     velocity -= edges_over.cwiseProduct(cell.rate);
+    particles.drift_velocity[i] -= edges_over.cwiseProduct(cell.drift_rate); // as seen against its new images
     change += 0.5 * particles.weight[i] * particles.mass[i] * (velocity.squaredNorm() - old_square);
   }
   return change;

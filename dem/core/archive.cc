@@ -1,7 +1,7 @@
-#include "dem/io/archive.h"
+#include "dem/core/archive.h"
 
 #include "dem/core/error.h"
-#include "dem/io/whole_file.h"
+#include "dem/core/whole_file.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "dem/io/whole_file.h"
+#include "dem/core/whole_file.h"
 
 #include "dem/core/error.h"
 

@@ -15,16 +15,25 @@ struct CellWork
   Vec3 image_force = Vec3::Zero(); ///< of the contacts across the faces at the last step [N]
 
   /// Books the last step's work of the contacts. @param force across the faces at this step, see Virial::image [N]
-  void book_contacts(const PeriodicCell &cell, const Vec3 &force, double time_step);
+  /// @param drift of the last step [s]
+  void book_contacts(const PeriodicCell &cell, const Vec3 &force, double drift);
 
-  /// What the accounts say at this step, when the cell's acceleration is set [J].
-  double at_this_step(const Particles &particles, double time_step) const;
+  /// What the accounts say at this step, when the cell's acceleration is set [J]. @param kick to come [s]
+  double at_this_step(const Particles &particles, double kick) const;
 
   /// Books the half of this step's change of the rate that belongs to it; before the grains move.
-  void begin_kick(const Particles &particles, double time_step);
+  void begin_kick(const Particles &particles, double kick);
 
   /// Keeps the other half for the next step; after the grains have moved, before the cell does.
-  void end_kick(const Particles &particles, double time_step);
+  void end_kick(const Particles &particles, double kick, double drift);
+
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    visit("sum", self.sum);
+    visit("half_kick", self.half_kick);
+    visit("image_force", self.image_force);
+  }
 };
 
 /// Puts grains that have left the cell back into it, with the velocities of their images.

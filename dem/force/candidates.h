@@ -1,0 +1,56 @@
+#pragma once
+
+#include "dem/neighbour/verlet_list.h"
+#include "dem/state/particles.h"
+#include "dem/state/wall.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Pairs of parts of different particles that are nearer than their bounding radii plus a range [m]; pairs of two fixed
+/// particles are left out.
+VerletList near_parts(const Particles &particles, double range);
+
+/// Parts of free particles that are nearer to a wall than their bounding radius plus a range [m]: rows by part, the
+/// second of a pair is the wall.
+VerletList parts_near_walls(const Particles &particles, const std::vector<PlaneWall> &walls, double range);
+
+/// Deals a list out to several, in its order. @param class_of class_of(first, second) of a pair, in [0, n)
+template <class ClassOf>
+std::vector<VerletList> split(VerletList list, const std::size_t n, const ClassOf &class_of)
+{
+  std::vector<VerletList> lists(n);
+  for (VerletList &one : lists)
+    one.row.assign(list.row.size(), 0);
+  if (list.size() == 0)
+    return lists;
+  const auto class_of_pair = [&](const std::size_t pair) -> std::size_t
+  { return class_of(list.first[pair], list.second[pair]); };
+  const std::size_t first_class = class_of_pair(0);
+  std::size_t pair = 1;
+  while (pair < list.size() && class_of_pair(pair) == first_class)
+    ++pair;
+  if (pair == list.size()) // as mostly
+  {
+    lists[first_class] = std::move(list);
+    return lists;
+  }
+  for (std::size_t i = 0; i + 1 < list.row.size(); ++i)
+  {
+    for (auto k = list.row[i]; k < list.row[i + 1]; ++k)
+    {
+      VerletList &one = lists[class_of_pair(k)];
+      one.first.push_back(list.first[k]);
+      one.second.push_back(list.second[k]);
+      one.image.push_back(list.image[k]);
+    }
+    for (VerletList &one : lists)
+      one.row[i + 1] = static_cast<std::int32_t>(one.second.size());
+  }
+  return lists;
+}
+
+} // namespace bergamo::dem

@@ -1,0 +1,231 @@
+#pragma once
+
+#include "dem/force/contact_set.h"
+#include "dem/force/follow.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+/// One step of a ContactSet; for the sources of the kinds alone.
+namespace bergamo::dem
+{
+
+template <class Kind>
+void ContactSet<Kind>::compute(const ContactScene &scene, PhaseTimes &times)
+{
+  Stopwatch watch;
+  const Particles &p = scene.particles;
+  list_bodies(p.size(), scene.walls.size());
+  const std::vector<std::int32_t> due_slots =
+      follow_all(store, loads, losses,
+                 [&](const std::size_t block, Losses<Pack> &lost)
+                 { return Kind::follow_block(store, loads, block, scene, lost); })
+          .all();
+  watch.lap(times.contacts);
+
+  const std::vector<std::int32_t> candidates = screen(scene);
+  watch.lap(times.screening);
+
+  const Found found = search(due_slots, candidates, scene);
+  take_up(found, scene);
+  list_bodies(p.size(), scene.walls.size());
+  add_due_loads(p, due_slots);
+  found.begun.for_each([&](const NewContact &c) { add_load_of(p, c.search, c.search.resultant); });
+  watch.lap(times.searches);
+}
+
+/// Candidates apart that may touch by now.
+template <class Kind>
+std::vector<std::int32_t> ContactSet<Kind>::screen(const ContactScene &scene) const
+{
+  Collected<std::int32_t> candidates;
+  const auto travelled = [&](const std::size_t pair)
+  { return Kind::travelled(scene, list.first[pair], list.second[pair]); };
+  const std::size_t n_packs = list.size() / pack_width;
+  parallel_ranges(n_packs, 64,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t pack = begin; pack < end; ++pack)
+                    {
+                      const std::size_t pair = pack * pack_width;
+                      const Pack motion =
+                          math::generate<Pack>([&](const int lane) { return travelled(pair + lane); });
+                      const math::Mask<Pack> is_at_rest = motion < math::load(&rest_until[pair]);
+                      if (!math::any(!is_at_rest))
+                        continue;
+                      for (int lane = 0; lane < pack_width; ++lane)
+                        if (!math::lane(is_at_rest, lane))
+                          candidates.of(part).push_back(static_cast<std::int32_t>(pair + lane));
+                    }
+                  });
+  for (std::size_t pair = n_packs * pack_width; pair < list.size(); ++pair)
+    if (!(travelled(pair) < rest_until[pair]))
+      candidates.of(most_parts() - 1).push_back(static_cast<std::int32_t>(pair));
+  return candidates.all();
+}
+
+/// Searches the contacts that are due, and then the candidates among the pairs apart.
+template <class Kind>
+typename ContactSet<Kind>::Found ContactSet<Kind>::search(const std::vector<std::int32_t> &due_slots,
+                                                          const std::vector<std::int32_t> &candidates,
+                                                          const ContactScene &scene)
+{
+  const std::size_t n = due_slots.size() + candidates.size(),
+                    n_groups = (n + Kind::search_group - 1) / Kind::search_group;
+  due_loads.resize(due_slots.size());
+  Found found;
+  Collected<std::int64_t> undecided;
+  std::vector<ContactLosses> group_losses(n_groups);
+  const SearchContext<Kind> context{scene, store, hint};
+  parallel_ranges(
+      n_groups, 1,
+      [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+      {
+        std::vector<ContactSearch> searches;
+        std::vector<BegunContact<Kind>> begun;
+        for (std::size_t group = begin; group < end; ++group)
+        {
+          const std::size_t from = group * Kind::search_group, to = std::min(from + Kind::search_group, n);
+          searches.clear();
+          begun.clear();
+          for (std::size_t k = from; k < to; ++k)
+            searches.push_back(place_of(k < due_slots.size() ? store.pair[due_slots[k]]
+                                                             : candidates[k - due_slots.size()],
+                                        scene.particles));
+          Kind::search(searches, context, group_losses[group], begun);
+          for (std::size_t k = from; k < to; ++k)
+          {
+            const ContactSearch &s = searches[k - from];
+            if (s.is_undecided)
+              undecided.of(part).push_back(s.pair);
+            if (k < due_slots.size())
+              due_loads[k] = {s.resultant, s.is_touching};
+            if (s.is_touching)
+              continue;
+            rest_until[s.pair] = Kind::travelled(scene, s.first_part, s.second_part) + s.gap;
+            if (s.slot != apart)
+              found.ended.of(part).push_back(s);
+          }
+          for (const BegunContact<Kind> &c : begun)
+            found.begun.of(part).push_back({searches[c.search], c.state});
+        }
+      });
+  for (const ContactLosses &lost : group_losses)
+    losses += lost;
+  n_searches += static_cast<std::int64_t>(n);
+  undecided.for_each([&](const std::int64_t) { ++n_undecided; });
+  return found;
+}
+
+/// Contacts that began or ended take and leave their slots one by one.
+template <class Kind>
+void ContactSet<Kind>::take_up(const Found &found, const ContactScene &scene)
+{
+  found.ended.for_each(
+      [&](const ContactSearch &s)
+      {
+        losses += Kind::end(s, store.get(s.slot), scene);
+        store.remove(s.slot);
+        slot[s.pair] = apart;
+      });
+  found.begun.for_each(
+      [&](const NewContact &c)
+      {
+        const ContactSearch &s = c.search;
+        slot[s.pair] = store.add({s.pair, s.first, s.second, s.image}, c.state, slot_near(s.pair));
+        loads.take(slot[s.pair], s.first, body_of_second(s.second, scene.particles.size()));
+        rest_until[s.pair] = std::numeric_limits<double>::infinity();
+      });
+}
+
+/// Adds what the searches of due contacts that stay have given, each chunk by one thread. @param due_slots ascending
+template <class Kind>
+void ContactSet<Kind>::add_due_loads(const Particles &p, const std::vector<std::int32_t> &due_slots)
+{
+  const auto first_of_chunk = [&](const std::size_t chunk)
+  {
+    return std::lower_bound(due_slots.begin(), due_slots.end(), static_cast<std::int32_t>(chunk * slots_per_chunk)) -
+           due_slots.begin();
+  };
+  parallel_ranges(store.n_chunks(), 1,
+                  [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    const auto last = first_of_chunk(end);
+                    for (auto k = first_of_chunk(begin); k < last; ++k)
+                      if (due_loads[k].is_touching)
+                        add_load_of(p, place_of(store.pair[due_slots[k]], p), due_loads[k].resultant);
+                  });
+}
+
+template <class Kind>
+void ContactSet<Kind>::add_load_of(const Particles &p, const ContactSearch &pair, const Resultant &resultant)
+{
+  const std::int32_t s = slot[pair.pair];
+  loads.add(s, resultant);
+  if (p.cell.is_periodic())
+    loads.virial_of_slot(s).add(0.5 * p.branch(pair.first, pair.second, pair.image), p.cell.place[pair.image],
+                                resultant.force);
+}
+
+/// Slot of a touching pair shortly before a pair in the list, mostly of the same particle; `apart` if there is none.
+template <class Kind>
+std::int32_t ContactSet<Kind>::slot_near(const std::int32_t pair) const
+{
+  for (std::int32_t k = pair - 1; k >= std::max(pair - Kind::near_reach, 0); --k)
+    if (slot[k] != apart)
+      return slot[k];
+  return apart;
+}
+
+template <class Kind>
+void ContactSet<Kind>::list_bodies(const std::size_t n_particles, const std::size_t n_walls)
+{
+  if (loads.is_current())
+    return;
+  if constexpr (Kind::second_is_wall)
+  {
+    std::vector<std::int32_t> body;
+    for (const std::int32_t wall : store.second)
+      body.push_back(body_of_second(wall, n_particles));
+    loads.list_bodies(store.first, body, n_particles + n_walls);
+  }
+  else
+    loads.list_bodies(store.first, store.second, n_particles);
+}
+
+template <class Kind>
+ContactSearch ContactSet<Kind>::place_of(const std::int32_t pair, const Particles &p) const
+{
+  const std::int32_t first = list.first[pair], second = list.second[pair];
+  const std::int32_t second_body = Kind::second_is_wall ? second : p.parts.particle[second];
+  return {pair, first, second, p.parts.particle[first], second_body, list.image[pair], slot[pair]};
+}
+
+template <class Kind>
+void ContactSet<Kind>::list_touching(const Particles &p, const std::int32_t law,
+                                     std::vector<TouchingContact> &contacts) const
+{
+  for (std::size_t pair = 0; pair < list.size(); ++pair)
+    if (slot[pair] != apart)
+    {
+      contacts.push_back(Kind::view(place_of(static_cast<std::int32_t>(pair), p), store.get(slot[pair]), p));
+      contacts.back().law = law;
+    }
+}
+
+template <class Kind>
+ContactEnergy ContactSet<Kind>::total_energy() const
+{
+  ContactEnergy sum;
+  for (std::size_t s = 0; s < store.n_slots(); ++s)
+    if (store.pair[s] != store.free_slot)
+    {
+      const ContactEnergy e = stored_energy(store.get(static_cast<std::int32_t>(s)));
+      sum.normal += e.normal;
+      sum.tangential += e.tangential;
+    }
+  return sum;
+}
+
+} // namespace bergamo::dem

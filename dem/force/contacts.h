@@ -1,0 +1,106 @@
+#pragma once
+
+#include "dem/force/kinds/grain_grain.h"
+#include "dem/force/kinds/grain_plane.h"
+#include "dem/force/kinds/sphere_sphere.h"
+#include "dem/state/material.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Laws of all pairs of materials, by MaterialTable::pair_number().
+std::vector<ContactLaw> contact_laws(const MaterialTable &materials);
+
+/// What a step's contacts depend on beside the bodies.
+struct ContactStep
+{
+  const std::vector<ContactLaw> &laws; ///< by MaterialTable::pair_number()
+  const ContactParameters &parameters;
+  double time_step; ///< of the drift that led here [s]
+};
+
+/// All contacts of a simulation: the register of their kinds. Each kind has a set for each pair of materials, so that
+/// the contacts of a block share their law.
+class Contacts
+{
+public:
+  explicit Contacts(std::int32_t n_material_pairs = 1);
+
+  /// The kinds, in the order in which they are computed and summed: the one place that lists them.
+  template <class Self, class Visit>
+  static void for_each_kind(Self &self, Visit &&visit)
+  {
+    visit("grain_grain", self.grain_grain);
+    visit("sphere_sphere", self.sphere_sphere);
+    visit("grain_plane", self.grain_plane);
+  }
+
+  /// Calls visit(set, number of the pair of materials) for the sets of all kinds.
+  template <class Self, class Visit>
+  static void for_each_set(Self &self, Visit &&visit)
+  {
+    for_each_kind(self,
+                  [&](const char *, auto &sets)
+                  {
+                    for (std::size_t law = 0; law < sets.size(); ++law)
+                      visit(sets[law], static_cast<std::int32_t>(law));
+                  });
+  }
+
+  /// Looks for candidates anew; the history of pairs that stay is kept. @param range beyond the bounding radii [m]
+  void renew(const Particles &particles, const std::vector<PlaneWall> &walls, double range);
+
+  /// Follows a new order of the parts that stay, order[new] = old. The candidates must be renewed afterwards.
+  /// @param n_old parts before
+  void reorder(const std::vector<std::int32_t> &part_order, std::size_t n_old);
+
+  /// Drops all contacts of one wall at the next renewal; later walls move up by one.
+  void remove_wall(std::int32_t wall);
+
+  /// Brings every contact to this step.
+  void compute(const Particles &particles, const std::vector<PlaneWall> &walls, const ContactStep &step,
+               PhaseTimes &times);
+
+  /// Adds what the contacts give to particle i, or to a wall, in a fixed order.
+  void add_load(const std::size_t i, BodyLoad &load) const
+  {
+    for_each_set(*this, [&](const auto &set, std::int32_t) { set.add_load(i, load); });
+  }
+  BodyLoad load_of_wall(std::size_t wall, std::size_t n_particles) const;
+
+  /// Of all contacts between particles at this step; zero without a periodic cell.
+  Virial<double> virial() const;
+
+  /// Has every contact searched anew at the next step, e.g. after weights have been changed.
+  void refresh(const Particles &particles);
+
+  /// Contacts between particles, and with walls, in a fixed order.
+  std::vector<TouchingContact> touching(const Particles &particles) const;
+  std::vector<TouchingContact> touching_walls(const Particles &particles) const;
+
+  ContactEnergy total_energy() const; ///< stored in all contacts [J]
+  ContactLosses losses() const;       ///< since the accounts were opened [J]
+  void reset_losses();
+
+  std::int32_t n_touching() const;       ///< contacts between particles
+  std::int32_t n_touching_walls() const; ///< contacts with walls
+  std::int64_t n_candidates() const;     ///< pairs of parts near one another
+  std::int64_t n_searches() const;       ///< since the start
+  std::int64_t n_undecided() const;      ///< searches that ended without a decision, since the start
+
+  /// All that a step depends on; see dem/core/state.h.
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    for_each_kind(self, visit);
+  }
+
+  std::vector<ContactSet<GrainGrain>> grain_grain;
+  std::vector<ContactSet<SphereSphere>> sphere_sphere;
+  std::vector<ContactSet<GrainPlane>> grain_plane;
+};
+
+} // namespace bergamo::dem

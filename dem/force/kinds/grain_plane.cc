@@ -1,0 +1,135 @@
+#include "dem/force/kinds/grain_plane.h"
+
+#include "dem/contact/geometry.h"
+#include "dem/force/follow.h"
+
+namespace bergamo::dem
+{
+namespace
+{
+
+/// Rigid motion of a grain against a wall since the last step, as PairMotion.
+template <class Real>
+struct WallMotion
+{
+  Vector3<Real> velocity; ///< of the wall minus the grain's [m/s]
+  Vector3<Real> spin;     ///< of the grain [1/s]
+  double time_step;
+
+  /// @param point contact point minus the grain's centre [m]
+  Vector3<Real> displacement(const Vector3<Real> &point) const
+  {
+    return (velocity - spin.cross(point)) * Real(time_step);
+  }
+  Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin) * Real(0.5 * time_step); }
+  Real bound(const Vector3<Real> &displacement, const Real &radius) const
+  {
+    const auto size = [](const Vector3<Real> &v) -> Real
+    { return math::abs(v[0]) + math::abs(v[1]) + math::abs(v[2]); };
+    return size(displacement) + radius * size(spin) * Real(time_step);
+  }
+};
+
+WallMotion<double> motion_of(const ContactSearch &search, const ContactScene &scene)
+{
+  const Particles &p = scene.particles;
+  return {scene.walls[search.second].drift_velocity - p.drift_velocity[search.first], p.angular_velocity[search.first],
+          scene.time_step};
+}
+
+/// Centre of a part minus its particle's [m].
+Vec3 arm_of(const Particles &p, const std::int32_t part, const std::int32_t particle)
+{
+  return p.orientation[particle] * p.parts.place[part];
+}
+
+/// @param[in,out] s with the state of last step, or ContactState::begin(); stays so where the part is apart
+void locate(ContactSearch &search, const ContactScene &scene, ContactState<double> &s, ContactLosses &losses)
+{
+  const Particles &p = scene.particles;
+  const PlaneWall &wall = scene.walls[search.second];
+  const Vec3 normal = -wall.normal;
+  BodyPose pose = make_pose(p.parts.shape[search.first_part], p.position[search.first], p.orientation[search.first]);
+  if (p.has_clumps())
+    pose = make_pose(p.parts.shape[search.first_part], p.part_position(search.first_part),
+                     p.part_orientation(search.first_part));
+  const TangentFrame frame = tangent_frame(normal);
+  const PlacedSupport<double> g = support(pose, normal, frame);
+  const double overlap = g.height - wall.normal.dot(pose.position - wall.point);
+  search.gap = -overlap;
+  search.is_touching = overlap > 0.;
+  if (!search.is_touching)
+    return;
+
+  const WallMotion<double> motion = motion_of(search, scene);
+  const double old_overlap = s.overlap;
+  s.spin += motion.turn_about(s.normal);
+  const ContactState<double> before = s;
+  const CurvatureBounds<double> bounds = curvature_bounds(pose.shape, scene.parameters.curvature_bound);
+  take_geometry(s, normal, overlap, relative_curvature(frame, g.radii, bounds), scene.law.elastic);
+  s.radius = p.parts.bounding_radius[search.first_part];
+  s.budget = motion_budget(scene.parameters, s.radius, overlap, g.radii.norm());
+  s.point = g.arm - 0.5 * overlap * normal;
+  if (p.has_clumps())
+    s.point += arm_of(p, search.first_part, search.first);
+  s.weight = p.weight[search.first];
+  s.reduced_mass = p.mass[search.first]; // the wall is infinitely heavy
+  losses.curvature += curvature_work(before, s, old_overlap);
+  const Vec3 force =
+      advance_contact(s, scene.law, old_overlap, motion.displacement(s.point), scene.time_step, losses);
+  search.resultant = {force, s.point.cross(force), Vec3::Zero()};
+}
+
+} // namespace
+
+math::Mask<Pack> GrainPlane::follow_block(Store &store, LoadSums &loads, const std::size_t block,
+                                          const ContactScene &scene, Losses<Pack> &losses)
+{
+  const Particles &p = scene.particles;
+  const auto grain = [&](const int lane) { return store.first[block * pack_width + lane]; };
+  const auto plane = [&](const int lane) { return store.second[block * pack_width + lane]; };
+  const WallMotion<Pack> motion{
+      math::gather_vectors<Pack>([&](const int lane) -> const Vec3 &
+                                 { return scene.walls[plane(lane)].drift_velocity; }) -
+          math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.drift_velocity[grain(lane)]; }),
+      math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.angular_velocity[grain(lane)]; }),
+      scene.time_step};
+  ContactState<Pack> &state = store.blocks[block];
+  const Followed<Pack> followed = follow(state, motion, scene.law, losses);
+  loads.add(block, followed.force, state.point.cross(followed.force), Vector3<Pack>(0., 0., 0.));
+  return followed.is_due;
+}
+
+void GrainPlane::search(const std::span<ContactSearch> searches, const SearchContext<GrainPlane> &context,
+                        ContactLosses &losses, std::vector<BegunContact<GrainPlane>> &begun)
+{
+  for (std::size_t k = 0; k < searches.size(); ++k)
+  {
+    ContactSearch &search = searches[k];
+    State state = search.slot >= 0 ? context.store.get(search.slot) : State::begin();
+    locate(search, context.scene, state, losses);
+    if (!search.is_touching)
+      continue;
+    if (search.slot >= 0)
+      context.store.set(search.slot, state);
+    else
+      begun.push_back({k, state});
+  }
+}
+
+ContactLosses GrainPlane::end(const ContactSearch &search, const State &state, const ContactScene &scene)
+{
+  return separate(state, state.normal, motion_of(search, scene).displacement(state.point));
+}
+
+void GrainPlane::refresh(Store &store, const Particles &)
+{
+  search_all_anew(store);
+}
+
+TouchingContact GrainPlane::view(const ContactSearch &place, const State &state, const Particles &)
+{
+  return {place.first, no_grain, state, state.point, own_image, place.second};
+}
+
+} // namespace bergamo::dem

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "dem/force/contact_set.h"
+
+#include <span>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Contacts between spheres about the centres of their particles, whose geometry is exact at every step; see
+/// ContactSet for what a kind has to say.
+struct SphereSphere
+{
+  using State = SphereContactState<double>;
+  using Store = ContactStore<SphereContactState>;
+  struct Hint
+  {
+  };
+  static Hint no_hint() { return {}; }
+
+  static constexpr bool second_is_wall = false;
+  static constexpr bool is_interleaved = true;
+  static constexpr std::size_t search_group = 16;
+  static constexpr std::int32_t near_reach = 64;
+
+  static double travelled(const ContactScene &scene, std::int32_t first_part, std::int32_t second_part)
+  {
+    const Particles &p = scene.particles;
+    return p.parts.motion[first_part] + p.parts.motion[second_part] + p.cell.motion;
+  }
+
+  static math::Mask<Pack> follow_block(Store &store, LoadSums &loads, std::size_t block, const ContactScene &scene,
+                                       Losses<Pack> &losses);
+  static void search(std::span<ContactSearch> searches, const SearchContext<SphereSphere> &context,
+                     ContactLosses &losses, std::vector<BegunContact<SphereSphere>> &begun);
+  static ContactLosses end(const ContactSearch &search, const State &state, const ContactScene &scene);
+  static void exchange_bodies(State &state);
+  static void exchange_bodies(Hint &) {}
+  static void refresh(Store &store, const Particles &particles);
+  static TouchingContact view(const ContactSearch &place, const State &state, const Particles &particles);
+};
+
+extern template class ContactSet<SphereSphere>;
+
+} // namespace bergamo::dem

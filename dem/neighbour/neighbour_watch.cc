@@ -1,0 +1,66 @@
+#include "dem/neighbour/neighbour_watch.h"
+
+#include "dem/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bergamo::dem
+{
+
+void NeighbourWatch::lists_were_built(const Particles &particles, const std::vector<PlaneWall> &walls)
+{
+  position_when_built = particles.position;
+  orientation_when_built = particles.has_clumps() ? particles.orientation : std::vector<Quaternion>();
+  edges_when_built = particles.cell.edges;
+  look_at_motion = particles.largest_motion + 0.5 * verlet_distance;
+  wall_motion_when_built.clear();
+  for (const PlaneWall &wall : walls)
+    wall_motion_when_built.push_back(wall.motion);
+}
+
+/// Largest displacement of any part's centre since the lists were built [m].
+double NeighbourWatch::displacement(const Particles &p, const std::size_t i) const
+{
+  const double of_centre = (p.position[i] - position_when_built[i]).norm();
+  if (orientation_when_built.empty())
+    return of_centre;
+  double arm = 0.;
+  for (auto k = p.first_part[i]; k < p.first_part[i + 1]; ++k)
+    arm = std::max(arm, p.parts.place[k].norm());
+  // A turn by theta moves a point at distance r by at most 2 r sin(theta / 2), the length of the quaternion's vector.
+  const Vec3 axis = (orientation_when_built[i].conjugate() * p.orientation[i]).vec();
+  return of_centre + 2. * arm * axis.norm();
+}
+
+bool NeighbourWatch::must_renew(const Particles &particles, const std::vector<PlaneWall> &walls)
+{
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    if (walls[w].motion - wall_motion_when_built[w] > 0.5 * verlet_distance)
+      return true;
+  double limit = 0.5 * verlet_distance;
+  if (particles.cell.is_periodic())
+    limit -= 0.5 * (particles.cell.edges - edges_when_built).norm();
+  if (particles.largest_motion < look_at_motion)
+    return false;
+  Collected<double> found;
+  parallel_ranges(particles.size(), 1024,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    double most = 0.;
+                    for (std::size_t i = begin; i < end; ++i)
+                      most = std::max(most, displacement(particles, i));
+                    found.of(part).push_back(most);
+                  });
+  double largest = 0.;
+  found.for_each([&](const double most) { largest = std::max(largest, most); });
+  look_at_motion = particles.largest_motion + (limit - largest);
+  return largest > limit;
+}
+
+double contact_range(const Particles &p, const double verlet_distance)
+{
+  return 2. * *std::max_element(p.parts.bounding_radius.begin(), p.parts.bounding_radius.end()) + verlet_distance;
+}
+
+} // namespace bergamo::dem

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "dem/state/particles.h"
+#include "dem/state/wall.h"
+
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Tells when lists of candidates have to be renewed: once a particle or a wall may have come half the Verlet distance
+/// nearer to others than it was when they were built (Wellmann 3.48). Places are looked at only after the sum of the
+/// largest motions allows for it, which costs nothing in between.
+class NeighbourWatch
+{
+public:
+  double verlet_distance = 0.; ///< range beyond the bounding radii [m]
+
+  /// Takes the present places for those of the lists.
+  void lists_were_built(const Particles &particles, const std::vector<PlaneWall> &walls);
+
+  /// Whether the lists may miss a pair by now.
+  bool must_renew(const Particles &particles, const std::vector<PlaneWall> &walls);
+
+  /// Where a particle was when the lists were built [m]; nothing known of it where it is too new.
+  const Vec3 *place_when_built(const std::size_t i) const
+  {
+    return i < position_when_built.size() ? &position_when_built[i] : nullptr;
+  }
+
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    visit("verlet_distance", self.verlet_distance);
+    visit("look_at_motion", self.look_at_motion);
+    visit("position_when_built", self.position_when_built);
+    visit("turn_when_built", self.orientation_when_built);
+    visit("wall_motion_when_built", self.wall_motion_when_built);
+    visit("edges_when_built", self.edges_when_built);
+  }
+
+private:
+  double displacement(const Particles &particles, std::size_t i) const;
+
+  double look_at_motion = 0.; // Particles::largest_motion below which nothing can have left its neighbours [m]
+  std::vector<Vec3> position_when_built;
+  std::vector<Quaternion> orientation_when_built; // of clumps, whose parts move when they turn; else empty
+  std::vector<double> wall_motion_when_built;
+  Vec3 edges_when_built = Vec3::Zero(); // of the periodic cell [m]
+};
+
+/// Largest distance of the centres of two parts that may be candidates [m].
+double contact_range(const Particles &particles, double verlet_distance);
+
+} // namespace bergamo::dem
