@@ -70,7 +70,8 @@ void locate(const Particles &p, const std::int32_t i, const PlaneWall &wall, con
   s.spin += motion.turn_about(s.normal);
   const ContactState<double> before = s;
   const CurvatureBounds<double> bounds = curvature_bounds(pose.shape, parameters.curvature_bound);
-  take_geometry(s, normal, l.overlap, relative_curvature(frame, g.radii, bounds), law.elastic);
+  take_geometry(s, normal, l.overlap, relative_curvature(frame, principal_radii(pose, normal, g.radii), bounds),
+                law.elastic);
   s.radius = p.bounding_radius[i];
   s.budget = motion_budget(parameters, s.radius, l.overlap, g.radii.norm());
   s.point = g.arm - 0.5 * l.overlap * normal;
