@@ -4,9 +4,10 @@
 //   contact_pairs [--runs N | --seconds S] [--seed N]      prints the first failing input in hex, ends with status 1
 //   contact_pairs --input HEX                              runs that one again
 //
-// Shapes: exponents in [0.02, 1.98], ratios of half-axes up to 20. Overlaps and gaps are up to a tenth of the smallest
-// half-axis. Special values (equal shapes, exact zeros, grains along the axes) are drawn often: that is where Newton's
-// method meets symmetry, flat faces and kinks. One pair in sixteen shares its centre, or nearly so.
+// Shapes: exponents in [0.02, 1.98], ratios of half-axes up to 20; one in eight up to the limits of shapes. Overlaps
+// and gaps are up to a tenth of the smallest half-axis. Special values (equal shapes, exact zeros, grains along the
+// axes) are drawn often: that is where Newton's method meets symmetry, flat faces and kinks. One pair in sixteen shares
+// its centre, or nearly so.
 
 #include "dem/contact/pair_search.h"
 #include "tests/unit/dem_contact_reference.h"
@@ -57,13 +58,17 @@ private:
 
 Superquadric shape_from(Bytes &bytes)
 {
+  const bool is_extreme = bytes.byte() % 8 == 1;
+  const double ratio = is_extreme ? shape_limits::largest_ratio : 20.,
+               margin = is_extreme ? shape_limits::smallest_exponent : 0.02;
   Superquadric s;
   for (double &r : s.half_axes)
-    r = std::pow(20., -bytes.share());
-  s.eps1 = bytes.between(0.02, 1.98);
-  s.eps2 = bytes.between(0.02, 1.98);
+    r = std::pow(ratio, -bytes.share());
+  s.eps1 = bytes.between(margin, 2. - margin);
+  s.eps2 = bytes.between(margin, 2. - margin);
   if (bytes.byte() % 4 == 0)
     s.eps2 = s.eps1;
+  s.validate();
   return s;
 }
 
