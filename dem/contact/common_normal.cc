@@ -1,5 +1,6 @@
 #include "dem/contact/common_normal.h"
 
+#include "dem/contact/centre_line.h"
 #include "dem/contact/least_minimum.h"
 #include "dem/contact/newton_search.h"
 #include "dem/contact/search_result.h"
@@ -13,7 +14,7 @@ constexpr int max_evaluations = 250;
 
 ContactGeometry find_contact(const BodyPose &body1, const BodyPose &body2)
 {
-  NewtonSearch<double> search(body1, body2, (body2.position - body1.position).normalized());
+  NewtonSearch<double> search(body1, body2, centre_direction<double>(body2.position - body1.position));
   search.run(max_evaluations);
   const ContactGeometry result = result_of(search, 0);
   return result.status == ContactStatus::undecided || is_suspicious(search) ? find_least_minimum(body1, body2, result)

@@ -69,6 +69,33 @@ struct PlacedSupport
   CurvatureRadii<Real> radii; ///< in the given tangent frame
 };
 
+namespace detail
+{
+
+/// Bounds the curvature of a flat face. In its middle radii are 1e95 and more: projected on the tangent frame they
+/// would drown the others in rounding. What is bounded is the tensor, D H D plus what its diagonal then lacks, D =
+/// min(1, flattest / H_ii): it stays positive semidefinite and continuous, and where two radii of one face go to
+/// infinity together their coupling H_ij goes to zero. So in the middle of a face both radii are at the bound in any
+/// direction, the limit of all tilts. Entries that are no larger than the bound keep their bits.
+template <class Real>
+void bound_flat_radii(Support<Real> &s)
+{
+  const Real flattest = Real(1e12) * s.h;
+  const auto is_flat = math::max(math::max(s.h11, s.h22), s.h33) > flattest;
+  if (!math::any(is_flat)) // mostly
+    return;
+  const auto share = [&](const Real &radius) -> Real { return flattest / math::max(radius, flattest); };
+  const Real d1 = share(s.h11), d2 = share(s.h22), d3 = share(s.h33);
+  s.h12 *= d1 * d2;
+  s.h13 *= d1 * d3;
+  s.h23 *= d2 * d3;
+  s.h11 = math::min(s.h11, flattest);
+  s.h22 = math::min(s.h22, flattest);
+  s.h33 = math::min(s.h33, flattest);
+}
+
+} // namespace detail
+
 /// @param normal unit vector, global; @param frame tangent_frame(normal), or of -normal: the radii are even in it.
 template <class Real>
 [[gnu::flatten]] PlacedSupport<Real> support(const Pose<Real> &body, const Vector3<Real> &normal,
@@ -78,11 +105,7 @@ template <class Real>
   const Vector3<Real> n = turn_back(r, normal), t1 = turn_back<Real>(r, frame.col(0)),
                       t2 = turn_back<Real>(r, frame.col(1));
   Support<Real> s = support(body.shape, n[0], n[1], n[2]);
-  // In the middle of a flat face one radius is 1e95 and more: it would drown the other one in the tangent frame.
-  const Real flattest = Real(1e12) * s.h;
-  s.h11 = math::min(s.h11, flattest);
-  s.h22 = math::min(s.h22, flattest);
-  s.h33 = math::min(s.h33, flattest);
+  detail::bound_flat_radii(s);
   const auto times_hessian = [&](const Vector3<Real> &t) -> Vector3<Real>
   {
     return {s.h11 * t[0] + s.h12 * t[1] + s.h13 * t[2], s.h12 * t[0] + s.h22 * t[1] + s.h23 * t[2],
@@ -95,6 +118,19 @@ template <class Real>
 inline PlacedSupport<double> support(const BodyPose &body, const Vec3 &normal)
 {
   return support(body, normal, tangent_frame(normal));
+}
+
+/// Product of both principal radii of a body's surface where its outward normal is n [m^2]. From the body's own axes,
+/// along which flat faces and ridges lie: it keeps a small radius beside a huge one, which the tensor in a tangent
+/// frame loses. The sum of the principal minors of dX/dN, since N is in its kernel.
+/// @param normal unit vector, global
+template <class Real>
+Real product_of_radii(const Pose<Real> &body, const Vector3<Real> &normal)
+{
+  const Vector3<Real> n = turn_back(body.rotation, normal);
+  Support<Real> s = support(body.shape, n[0], n[1], n[2]);
+  detail::bound_flat_radii(s);
+  return (s.h11 * s.h22 - s.h12 * s.h12) + (s.h11 * s.h33 - s.h13 * s.h13) + (s.h22 * s.h33 - s.h23 * s.h23);
 }
 
 enum class ContactStatus

@@ -188,7 +188,8 @@ private:
     // On a flat face p moves a lot for a change of c below resolution: then c is as good as it can be.
     const Mask at_minimum = size < Real(tolerance) * length_scale || step.norm() < Real(resolution);
     const Mask is_wide = size < Real(-wide_enough) * best.phi || widenings >= Real(max_widenings);
-    is_open = !((is_apart && is_wide) || (!is_apart && at_minimum));
+    const Mask may_touch = best.phi >= Real(0.); // not what is no number: that stays open
+    is_open = !((is_apart && is_wide) || (may_touch && at_minimum));
   }
 
   void advance()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/contact/centre_line.h"
 #include "dem/contact/common_normal.h"
 #include "dem/contact/newton_search.h"
 #include "dem/contact/pose_lanes.h"
@@ -61,8 +62,8 @@ FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body
   const Vector3<Real> centre_line = body2.position - body1.position;
   const Real guess_square = guess.squaredNorm();
   const math::Mask<Real> is_known = guess_square > Real(0.);
-  const Vector3<Real> start = math::select<Real>(is_known, Vector3<Real>(guess / math::sqrt(guess_square)),
-                                                 Vector3<Real>(centre_line / centre_line.norm()));
+  const Vector3<Real> start =
+      math::select<Real>(is_known, Vector3<Real>(guess / math::sqrt(guess_square)), centre_direction(centre_line));
   NewtonSearch<Real> search(body1, body2, start);
   search.run(max_evaluations);
 
@@ -74,6 +75,9 @@ FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body
   if (math::any(!is_known))
     is_doubtful = is_doubtful || (!is_known && is_suspicious(search));
   is_doubtful = is_doubtful && is_number;
+  if (math::any(!is_number))
+    for (int k = 0; k < n; ++k)
+      found.is_undecided[k] = !math::lane(is_number, k);
   if (!math::any(is_doubtful))
     return found;
   for (int k = 0; k < n; ++k)

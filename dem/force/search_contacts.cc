@@ -112,7 +112,8 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
   const PairMotion<Pack> motion(p, first, second, image, scene.time_step);
   const double bound = scene.parameters.curvature_bound;
   const RelativeCurvature<Pack> curvature =
-      relative_curvature(tangent_frame(found.normal), found.radii1, curvature_bounds(body1.shape, bound), found.radii2,
+      relative_curvature(tangent_frame(found.normal), principal_radii(body1, found.normal, found.radii1),
+                         curvature_bounds(body1.shape, bound), principal_radii(body2, found.normal, found.radii2),
                          curvature_bounds(body2.shape, bound));
   const Pack old_overlap = s.overlap;
   s.spin += motion.turn_about(s.normal);

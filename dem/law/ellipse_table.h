@@ -32,8 +32,9 @@ public:
   EllipseShape<Real> operator()(const Real &log_ratio) const
   {
     const Real x = math::clamp(log_ratio, Real(0.), Real(log_max)) * Real(1. / step);
+    // Also for what is no number: a place in the table.
     const Real cell =
-        math::map(x, [](const double x) { return static_cast<double>(std::min(static_cast<int>(x), n - 4)); });
+        math::map(x, [](const double x) { return static_cast<double>(static_cast<int>(x < n - 4. ? x : n - 4.)); });
     const Real t = x - cell, one(1.), two(2.);
     // Cubic Lagrange weights of the points -1, 0, 1, 2.
     const std::array<Real, 4> w{t * (t - one) * (t - two) * Real(-1. / 6.),

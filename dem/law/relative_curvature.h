@@ -68,18 +68,54 @@ struct Eigen2
   }
 };
 
+} // namespace detail
+
+/// Principal radii of a surface, low <= high [m], and the direction (x, y) of low in the tangent frame.
 template <class Real>
-Tensor2<Real> bounded_curvature(const CurvatureRadii<Real> &radii, const CurvatureBounds<Real> &bounds)
+struct PrincipalRadii
 {
-  // Far larger radii than the bound would overflow when squared; their directions stay.
+  Real low, high, x, y;
+
+  /// @param radii in that frame
+  explicit PrincipalRadii(const CurvatureRadii<Real> &radii)
+  {
+    // Radii of flat faces would overflow when squared; their directions stay.
+    const Real size = math::max(math::max(math::abs(radii.r11), math::abs(radii.r22)), math::abs(radii.r12));
+    const Real scale = Real(1.) / math::max(size, Real(1e-150));
+    const detail::Eigen2<Real> e(detail::Tensor2<Real>{radii.r11 * scale, radii.r22 * scale, radii.r12 * scale});
+    low = e.low * size;
+    high = e.high * size;
+    x = e.x;
+    y = e.y;
+  }
+};
+
+/// Of a body's surface. Where one radius is huge the tensor says nothing of the other one, up to 1e-4 half-axes: there
+/// rounding would decide it, and it is taken from the body's own axes instead.
+/// @param normal of the contact; @param radii in tangent_frame(normal)
+template <class Real>
+PrincipalRadii<Real> principal_radii(const Pose<Real> &body, const Vector3<Real> &normal,
+                                     const CurvatureRadii<Real> &radii)
+{
+  constexpr double needle = 1e6; // ratio of the radii up to which the tensor gives the smaller one to 1e-9
+  PrincipalRadii<Real> principal(radii);
+  const math::Mask<Real> is_needle = principal.high > Real(needle) * math::abs(principal.low);
+  if (math::any(is_needle)) // seldom
+    principal.low = math::select(is_needle, Real(product_of_radii(body, normal) / principal.high), principal.low);
+  return principal;
+}
+
+namespace detail
+{
+
+template <class Real>
+Tensor2<Real> bounded_curvature(const PrincipalRadii<Real> &radii, const CurvatureBounds<Real> &bounds)
+{
   const Real one(1.);
-  const Real size = math::max(math::max(math::abs(radii.r11), math::abs(radii.r22)), math::abs(radii.r12));
-  const Real scale = one / math::max(size, Real(1e-150));
-  const Eigen2<Real> e(Tensor2<Real>{radii.r11 * scale, radii.r22 * scale, radii.r12 * scale});
-  const Real low = one / math::clamp(Real(e.low * size), bounds.smallest_radius, bounds.largest_radius);
-  const Real high = one / math::clamp(Real(e.high * size), bounds.smallest_radius, bounds.largest_radius);
+  const Real low = one / math::clamp(radii.low, bounds.smallest_radius, bounds.largest_radius);
+  const Real high = one / math::clamp(radii.high, bounds.smallest_radius, bounds.largest_radius);
   const Real difference = low - high;
-  return {high + difference * e.x * e.x, high + difference * e.y * e.y, difference * e.x * e.y};
+  return {high + difference * radii.x * radii.x, high + difference * radii.y * radii.y, difference * radii.x * radii.y};
 }
 
 template <class Real>
@@ -93,8 +129,8 @@ RelativeCurvature<Real> from_sum(const TangentFrameOf<Real> &frame, const Tensor
 
 /// @param frame tangent frame of the contact normal, in which the radii stand
 template <class Real>
-RelativeCurvature<Real> relative_curvature(const TangentFrameOf<Real> &frame, const CurvatureRadii<Real> &radii1,
-                                           const CurvatureBounds<Real> &bounds1, const CurvatureRadii<Real> &radii2,
+RelativeCurvature<Real> relative_curvature(const TangentFrameOf<Real> &frame, const PrincipalRadii<Real> &radii1,
+                                           const CurvatureBounds<Real> &bounds1, const PrincipalRadii<Real> &radii2,
                                            const CurvatureBounds<Real> &bounds2)
 {
   return detail::from_sum(frame,
@@ -103,7 +139,7 @@ RelativeCurvature<Real> relative_curvature(const TangentFrameOf<Real> &frame, co
 
 /// As above against a plane, whose curvature is zero.
 template <class Real>
-RelativeCurvature<Real> relative_curvature(const TangentFrameOf<Real> &frame, const CurvatureRadii<Real> &radii,
+RelativeCurvature<Real> relative_curvature(const TangentFrameOf<Real> &frame, const PrincipalRadii<Real> &radii,
                                            const CurvatureBounds<Real> &bounds)
 {
   return detail::from_sum(frame, detail::bounded_curvature(radii, bounds));

@@ -21,7 +21,7 @@ struct GrainDistribution
   double smallest_exponent = 0.6;
   double largest_exponent = 1.2;
 
-  /// Throws ConfigError for a value out of its range or bounds that exclude a mean.
+  /// Throws ConfigError for a value out of its range, or bounds that exclude a mean or nearly all draws.
   void validate() const;
 };
 

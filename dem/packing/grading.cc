@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace bergamo::dem
 {
 namespace
 {
+
+constexpr std::size_t largest_number = std::numeric_limits<std::int32_t>::max();
+constexpr double smallest_size = 100. * shape_limits::smallest_half_axis,
+                 largest_size = 0.01 * shape_limits::largest_half_axis; // [m], whatever the shapes
 
 Superquadric draw_shape(const GrainShapes &shapes, std::mt19937_64 &generator)
 {
@@ -56,9 +62,10 @@ void GrainShapes::validate() const
 void UniformSizes::validate() const
 {
   shapes.validate();
-  require(smallest_diameter > 0., "smallest diameter of the grains", smallest_diameter, "positive [m]");
-  require(largest_diameter >= smallest_diameter && std::isfinite(largest_diameter), "largest diameter of the grains",
-          largest_diameter, "at least the smallest diameter [m]");
+  require(smallest_diameter >= smallest_size, "smallest diameter of the grains", smallest_diameter,
+          "positive, 1e-28 m at least");
+  require(largest_diameter >= smallest_diameter && largest_diameter <= largest_size, "largest diameter of the grains",
+          largest_diameter, "at least the smallest diameter, and at most 1e28 m");
 }
 
 SieveCurve SieveCurve::through(const double d10, const double d50, const double d60, const GrainShapes &shapes)
@@ -75,15 +82,16 @@ void SieveCurve::validate() const
   shapes.validate();
   require(points.size() >= 2, "number of points of the sieve curve", static_cast<double>(points.size()),
           "at least 2: the sizes that nothing and that everything passes");
-  require(points.front().size > 0., "smallest size of the sieve curve", points.front().size, "positive [m]");
+  require(points.front().size >= smallest_size, "smallest size of the sieve curve", points.front().size,
+          "positive, 1e-28 m at least");
   require(points.front().passing == 0., "share that passes the first point of the sieve curve", points.front().passing,
           "0: add the size of the smallest grains");
   require(points.back().passing == 1., "share that passes the last point of the sieve curve", points.back().passing,
           "1: add the size of the largest grains");
   for (std::size_t k = 1; k < points.size(); ++k)
   {
-    require(points[k].size > points[k - 1].size && std::isfinite(points[k].size), "size of the sieve curve",
-            points[k].size, "larger than that of the point before [m]");
+    require(points[k].size > points[k - 1].size && points[k].size <= largest_size, "size of the sieve curve",
+            points[k].size, "larger than that of the point before [m], and at most 1e28 m");
     require(points[k].passing >= points[k - 1].passing, "share that passes the sieve curve", points[k].passing,
             "at least that of the point before");
   }
@@ -108,6 +116,8 @@ Superquadric draw_grain(const SieveCurve &curve, std::mt19937_64 &generator)
 
 std::vector<Superquadric> draw_grains(const Grading &grading, const double solid_volume, std::mt19937_64 &generator)
 {
+  require(solid_volume > 0. && std::isfinite(solid_volume), "solid volume of the grains", solid_volume,
+          "positive and finite [m^3]");
   return std::visit(
       [&](const auto &sand)
       {
@@ -122,6 +132,9 @@ std::vector<Superquadric> draw_grains(const Grading &grading, const double solid
             return grains;
           sum += v;
           grains.push_back(grain);
+          require(grains.size() < largest_number, "number of grains of the solid volume",
+                  std::round(solid_volume / sum * static_cast<double>(grains.size())),
+                  "below 2^31; take larger grains or a smaller space");
         }
       },
       grading);

@@ -61,7 +61,7 @@ Superquadric draw_grain(const UniformSizes &sizes, std::mt19937_64 &generator);
 Superquadric draw_grain(const SieveCurve &curve, std::mt19937_64 &generator);
 
 /// Grains until their volume reaches solid_volume [m^3] as nearly as whole grains can. Throws ConfigError for a grading
-/// out of its range.
+/// or a volume out of its range.
 std::vector<Superquadric> draw_grains(const Grading &grading, double solid_volume, std::mt19937_64 &generator);
 
 /// Intermediate diameter of a grain, the opening that it passes [m].

@@ -8,6 +8,7 @@
 #include "dem/packing/random_stream.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -199,12 +200,15 @@ private:
 RandomAddition place_at_random(const std::span<const Superquadric> grains, const PackingSpace &space,
                                const std::uint64_t seed)
 {
+  for (const Superquadric &grain : grains)
+    grain.validate();
   return Addition(grains, space, seed).run();
 }
 
 Particles add_at_random(const std::span<const Superquadric> grains, const PackingSpace &space, const double density,
                         const std::uint64_t seed)
 {
+  require(density > 0. && std::isfinite(density), "density of the grains", density, "positive [kg/m^3]");
   const GrainPlaces places = place_at_random(grains, space, seed).places;
   Particles particles;
   for (std::size_t i = 0; i < grains.size(); ++i)

@@ -35,8 +35,8 @@ struct RandomAddition
 /// In each round the largest grains without a place, a twentieth of all, draw one each, uniform over the whole space,
 /// from the seed, the round and its own number; all are held against the placed grains at once, those that fit there
 /// against each other, and the larger one takes the place. The same bits on any number of threads, and, unlike trials
-/// divided by regions, no place or direction that is preferred. @throws ConfigError naming the solid fraction reached
-/// if the grains find no place
+/// divided by regions, no place or direction that is preferred. @throws ConfigError for impossible grains, and naming
+/// the solid fraction reached if they find no place
 RandomAddition place_at_random(std::span<const Superquadric> grains, const PackingSpace &space, std::uint64_t seed);
 
 /// The same as particles. @param density [kg/m^3]

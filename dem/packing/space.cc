@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 #include "dem/packing/polyhedron.h"
+#include "dem/shape/orientation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,7 @@ void raise_reach(const BodyPose &grain, const Vec3 &centre, const Tangent &a, co
 {
   constexpr double resolution = 1e-9, least_width = 1e-7; // of the reach, and [rad]
   const double bound = bound_between(a, b);
-  if (bound <= found.reach * (1. + resolution) || b.angle - a.angle < least_width)
+  if (!(bound > found.reach * (1. + resolution)) || b.angle - a.angle < least_width)
   {
     found.bound = std::max(found.bound, bound);
     return;
@@ -115,6 +116,7 @@ PackingSpace PackingSpace::periodic(const Box &box)
 
 PackingSpace PackingSpace::cylinder(const Vec3 &base, const double radius, const double height)
 {
+  require_finite(base, "base of the packing's cylinder");
   require(radius > 0. && std::isfinite(radius), "radius of the packing's cylinder", radius, "positive [m]");
   require(height > 0. && std::isfinite(height), "height of the packing's cylinder", height, "positive [m]");
   PackingSpace space;

@@ -5,11 +5,13 @@
 #include "dem/packing/gap_search.h"
 #include "dem/packing/grain_grid.h"
 #include "dem/packing/grain_move.h"
+#include "dem/shape/orientation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 
 namespace bergamo::dem
 {
@@ -289,10 +291,26 @@ void TighteningParameters::validate() const
   require(max_iterations > 0, "largest number of iterations of the tightening", max_iterations, "positive");
 }
 
+void LoosePacking::validate(const std::size_t n_grains) const
+{
+  require(size > 0. && size <= 1., "size of the grains of the loose packing over their full size", size, "in (0, 1]");
+  for (const std::size_t n : {places.position.size(), places.orientation.size()})
+    require(n == n_grains, "number of places of the loose packing", static_cast<double>(n),
+            "that of the grains, " + std::to_string(n_grains));
+  for (const Vec3 &position : places.position)
+    require_finite(position, "place of a grain of the loose packing");
+  for (const Quaternion &orientation : places.orientation)
+    require(std::abs(orientation.norm() - 1.) < 1e-6, "length of an orientation of the loose packing",
+            orientation.norm(), "1");
+}
+
 Tightening tighten(const std::span<const Superquadric> grains, const PackingSpace &space, const LoosePacking &start,
                    const TighteningParameters &parameters, const std::uint64_t seed)
 {
   parameters.validate();
+  start.validate(grains.size());
+  for (const Superquadric &grain : grains)
+    grain.validate();
   if (grains.empty())
     return {};
   return Tightener(grains, space, start, parameters, seed).run();

@@ -25,6 +25,9 @@ struct LoosePacking
 {
   GrainPlaces places;
   double size = 1.; ///< over the full size
+
+  /// Throws ConfigError for a size outside (0, 1], or places that are no numbers or not as many as the grains.
+  void validate(std::size_t n_grains) const;
 };
 
 /// Distance of centres up to which the tightening looks for neighbours, for the largest bounding radius [m]: a periodic

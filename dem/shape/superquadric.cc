@@ -39,10 +39,16 @@ double largest_plane_radius(const double a, const double b, const double eps)
 
 void Superquadric::validate() const
 {
+  using namespace shape_limits;
   for (int d = 0; d < 3; ++d)
-    require(half_axes[d] > 0. && std::isfinite(half_axes[d]), "superquadric half-axis", half_axes[d], "positive [m]");
+    require(half_axes[d] >= smallest_half_axis && half_axes[d] <= largest_half_axis, "superquadric half-axis",
+            half_axes[d], "positive, in [1e-30, 1e30] m; are its units metres?");
+  const double ratio = half_axes.maxCoeff() / half_axes.minCoeff();
+  require(ratio <= largest_ratio, "ratio of the superquadric's half-axes", ratio,
+          "at most 1e5; make a longer body of several");
   for (const double eps : {eps1, eps2})
-    require(eps > 0. && eps < 2., "superquadric exponent", eps, "in (0, 2); 1 is an ellipsoid");
+    require(eps >= smallest_exponent && eps <= largest_exponent, "superquadric exponent", eps,
+            "in (0, 2), 1e-6 at least from both ends; 1 is an ellipsoid, 0.1 nearly a box");
 }
 
 bool Superquadric::is_sphere() const

@@ -5,6 +5,16 @@
 namespace bergamo::dem
 {
 
+/// What shapes there may be. Within these limits volumes and moments of inertia neither overflow nor vanish, the
+/// support function keeps the distance of its exponents from one, and the contact search decides every pair (the fuzz
+/// target draws such shapes).
+namespace shape_limits
+{
+inline constexpr double smallest_half_axis = 1e-30, largest_half_axis = 1e30; ///< [m]
+inline constexpr double largest_ratio = 1e5;                                  ///< of two half-axes
+inline constexpr double smallest_exponent = 1e-6, largest_exponent = 2. - 1e-6;
+} // namespace shape_limits
+
 /// Superquadric with half-axes r1, r2, r3 [m] along its body axes and exponents 0 < eps < 2
 /// (towards 0 a box, 1 an ellipsoid, towards 2 an octahedron). Wellmann, eq. (3.1):
 ///   F(X) = (|X1/r1|^(2/eps1) + |X2/r2|^(2/eps1))^(eps1/eps2) + |X3/r3|^(2/eps2).
@@ -14,7 +24,7 @@ struct Superquadric
   double eps1 = 1.;
   double eps2 = 1.;
 
-  /// Throws ConfigError for half-axes that are not positive or exponents outside (0, 2).
+  /// Throws ConfigError for half-axes or exponents outside the limits of shapes.
   void validate() const;
 
   bool is_sphere() const;

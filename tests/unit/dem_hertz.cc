@@ -101,14 +101,14 @@ CurvatureRadii<double> in_frame(const Vec3 &normal, const Mat3 &hessian)
 RelativeCurvature<double> curvature_at(const Vec3 &normal, const Mat3 &hessian1, const CurvatureBounds<double> &bounds1,
                                        const Mat3 &hessian2, const CurvatureBounds<double> &bounds2)
 {
-  return relative_curvature(tangent_frame(normal), in_frame(normal, hessian1), bounds1, in_frame(normal, hessian2),
-                            bounds2);
+  return relative_curvature(tangent_frame(normal), PrincipalRadii(in_frame(normal, hessian1)), bounds1,
+                            PrincipalRadii(in_frame(normal, hessian2)), bounds2);
 }
 
 /// Against a plane.
 RelativeCurvature<double> curvature_at(const Vec3 &normal, const Mat3 &hessian, const CurvatureBounds<double> &bounds)
 {
-  return relative_curvature(tangent_frame(normal), in_frame(normal, hessian), bounds);
+  return relative_curvature(tangent_frame(normal), PrincipalRadii(in_frame(normal, hessian)), bounds);
 }
 
 const Material soft{60e9, 0.3, 2650.}, hard{200e9, 0.15, 7800.};
@@ -396,12 +396,13 @@ TEST_CASE("the law in packs is the law of one contact")
     const CurvatureBounds<double> bounds{0.1, 5.};
     const CurvatureBounds<Pack> pack_bounds{Pack(0.1), Pack(5.)};
     const RelativeCurvature<Pack> packed =
-        relative_curvature<Pack>(tangent_frame(normals), gather(radii1), pack_bounds, gather(radii2), pack_bounds);
+        relative_curvature<Pack>(tangent_frame(normals), PrincipalRadii(gather(radii1)), pack_bounds,
+                                 PrincipalRadii(gather(radii2)), pack_bounds);
     const HertzMindlin<Pack> laws = hertz_mindlin(packed.a, packed.b, pair);
     for (int k = 0; k < pack_width; ++k)
     {
-      const RelativeCurvature<double> one =
-          relative_curvature<double>(tangent_frame(normal[k]), radii1[k], bounds, radii2[k], bounds);
+      const RelativeCurvature<double> one = relative_curvature<double>(
+          tangent_frame(normal[k]), PrincipalRadii(radii1[k]), bounds, PrincipalRadii(radii2[k]), bounds);
       const HertzMindlin<double> law = hertz_mindlin(one.a, one.b, pair);
       CHECK(relative(math::lane(packed.a, k), one.a) < 1e-12);
       CHECK(relative(math::lane(packed.b, k), one.b) < 1e-12);
@@ -428,7 +429,7 @@ TEST_CASE("what the bounds of curvature do to a box-like grain on a plane")
     {
       const BodyPose body = make_pose({Vec3::Ones(), eps, eps}, Vec3::Zero(), Quaternion::Identity());
       const Vec3 n(std::sin(tilt * pi / 180.), 0., std::cos(tilt * pi / 180.));
-      const CurvatureRadii<double> radii = support(body, n).radii;
+      const PrincipalRadii<double> radii = principal_radii<double>(body, n, support(body, n).radii);
       std::printf("%5.1f %5.1f", eps, tilt);
       std::vector<double> coefficients;
       for (const double factor : factors)

@@ -84,3 +84,51 @@ TEST_CASE("gradings out of range are refused")
   CHECK_THROWS_AS(draw(SieveCurve{{{1e-3, 0.}, {2e-3, 0.8}, {3e-3, 0.5}, {4e-3, 1.}}, {}}), ConfigError);
   CHECK_NOTHROW(draw(SieveCurve{{{1e-4, 0.}, {2e-4, 1.}}, {}}));
 }
+
+TEST_CASE("numbers that would draw grains for ever are refused")
+{
+  // No number and infinity in every place; a solid volume that no sum of grains reaches, or that too many would; bounds
+  // that all but exclude what is drawn.
+  std::mt19937_64 generator(1);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  for (const double wrong : {nan, infinite, -infinite, 0., -1e-9})
+    CHECK_THROWS_WITH(draw_grains(UniformSizes(), wrong, generator), Catch::Contains("solid volume"));
+  for (const double wrong : {nan, infinite, -infinite, -1., 1e-40, 1e40})
+  {
+    const auto refused = [](const auto &sand) { CHECK_THROWS_AS(sand.validate(), ConfigError); };
+    CAPTURE(wrong);
+    refused(UniformSizes{wrong, 1e-3, {}});
+    refused(UniformSizes{1e-3, wrong, {}});
+    refused(GrainShapes{wrong, 0.3});
+    refused(SieveCurve{{{wrong, 0.}, {1e-3, 1.}}, {}});
+    refused(SieveCurve{{{1e-3, 0.}, {wrong, 1.}}, {}});
+    if (wrong != 1e-40)
+    {
+      refused(GrainShapes{1.5, wrong});
+      refused(SieveCurve{{{1e-3, 0.}, {2e-3, wrong}, {3e-3, 1.}}, {}});
+      GrainDistribution sand;
+      sand.relative_deviation = wrong;
+      refused(sand);
+    }
+    for (double GrainDistribution::*const value :
+         {&GrainDistribution::smallest_half_axis, &GrainDistribution::largest_half_axis,
+          &GrainDistribution::smallest_exponent, &GrainDistribution::largest_exponent})
+    {
+      GrainDistribution sand;
+      sand.*value = wrong;
+      refused(sand);
+    }
+    GrainDistribution sand;
+    sand.mean_half_axes[1] = wrong;
+    refused(sand);
+    CHECK_THROWS_AS(SieveCurve::through(wrong, 1e-3, 2e-3).validate(), ConfigError);
+    CHECK_THROWS_AS(SieveCurve::through(1e-4, 1e-3, wrong).validate(), ConfigError);
+  }
+  GrainDistribution narrow;
+  narrow.mean_half_axes.setConstant(0.5e-3);
+  narrow.smallest_half_axis = 0.5e-3 * (1. - 1e-9);
+  narrow.largest_half_axis = 0.5e-3 * (1. + 1e-9);
+  CHECK_THROWS_WITH(narrow.validate(), Catch::Contains("share of the Gaussian") && Catch::Contains("deviation"));
+  narrow.relative_deviation = 0.;
+  CHECK_NOTHROW(narrow.validate());
+}

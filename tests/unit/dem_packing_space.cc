@@ -2,11 +2,14 @@
 #include "dem/packing/distribution.h"
 #include "dem/packing/overlap.h"
 #include "dem/packing/space.h"
+#include "dem/packing/tightening.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 using namespace bergamo::dem;
 
@@ -152,4 +155,40 @@ TEST_CASE("the largest sphere inside a grain")
       CHECK(inscribed_radius(grain) > 0.99 * nearest);
     }
   CHECK(inscribed_radius({Vec3::Constant(2.), 1., 1.}) == Approx(2.).epsilon(1e-14));
+}
+
+TEST_CASE("spaces and packings that are no numbers are refused, and searches of such grains end")
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  for (const double wrong : {nan, infinite, -infinite})
+  {
+    CAPTURE(wrong);
+    for (int d = 0; d < 3; ++d)
+    {
+      const Vec3 place = Vec3::Zero() + wrong * Vec3::Unit(d);
+      Vec3 corner = Vec3::Zero();
+      corner[d] = wrong;
+      CHECK_THROWS_AS(PackingSpace(Box{corner, Vec3::Ones()}), ConfigError);
+      CHECK_THROWS_AS(PackingSpace::periodic({Vec3::Zero(), corner}), ConfigError);
+      CHECK_THROWS_WITH(PackingSpace::cylinder(corner, 1., 1.), Catch::Contains("base of the packing's cylinder"));
+      CHECK_FALSE(PackingSpace::cylinder(Vec3::Zero(), 1., 1.)
+                      .contains(make_pose({Vec3::Constant(0.1), 0.5, 0.5}, place, Quaternion::Identity()), 0.2));
+    }
+    CHECK_THROWS_AS(PackingSpace::cylinder(Vec3::Zero(), wrong, 1.), ConfigError);
+    CHECK_THROWS_AS(PackingSpace::cylinder(Vec3::Zero(), 1., wrong), ConfigError);
+    const std::vector<Superquadric> grains(1, {Vec3(0.1, 0.1, wrong), 1., 1.}), whole(1, {Vec3::Constant(0.1), 1., 1.});
+    const PackingSpace space(Box{Vec3::Zero(), Vec3::Ones()});
+    CHECK_THROWS_WITH(place_at_random(grains, space, 1), Catch::Contains("half-axis"));
+    CHECK_THROWS_WITH(add_at_random(whole, space, wrong, 1), Catch::Contains("density"));
+
+    const Vec3 middle = Vec3::Constant(0.5);
+    const auto tightened = [&](const LoosePacking &start) { return tighten(whole, space, start, {}, 1); };
+    CHECK_THROWS_WITH(tightened({{{middle}, {Quaternion::Identity()}}, wrong}), Catch::Contains("loose packing"));
+    CHECK_THROWS_WITH(tightened({{{wrong * middle}, {Quaternion::Identity()}}, 0.5}), Catch::Contains("place"));
+    CHECK_THROWS_WITH(tightened({{{middle}, {Quaternion(wrong, 0., 0., 0.)}}, 0.5}), Catch::Contains("orientation"));
+    CHECK_THROWS_WITH(tightened({{{middle, middle}, {Quaternion::Identity()}}, 0.5}), Catch::Contains("is 2"));
+  }
+  // The halving of angles would go on to the last one for what is no number.
+  const BodyPose nowhere = make_pose({Vec3::Constant(0.1), 0.5, 0.5}, Vec3(nan, 0., 0.), Quaternion::Identity());
+  CHECK_FALSE(radial_reach(nowhere, Vec3::Zero()).bound > 0.);
 }

@@ -1,4 +1,5 @@
 #include "dem/core/error.h"
+#include "dem/shape/orientation.h"
 #include "dem/shape/superquadric.h"
 
 #include <algorithm>
@@ -248,21 +249,66 @@ TEST_CASE("impossible superquadrics are refused")
     CHECK_THROWS_AS((Superquadric{half_axes, eps1, eps2}.validate()), ConfigError);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
-  for (const double wrong : {0., -1., nan, infinite})
+  const double denormal = 5e-324;
+  for (const double wrong : {0., -1., nan, infinite, -infinite, denormal, 1e-31, 1e31, 1e-6})
   {
     refused({wrong, 1., 1.}, 1., 1.);
     refused({1., wrong, 1.}, 1., 1.);
     refused({1., 1., wrong}, 1., 1.);
   }
-  for (const double wrong : {0., -0.5, 2., 3., nan})
+  for (const double wrong : {0., -0.5, 2., 2.5, 3., 1e-9, 2. - 1e-9, nan, infinite})
   {
     refused({1., 1., 1.}, wrong, 1.);
     refused({1., 1., 1.}, 1., wrong);
   }
   CHECK_NOTHROW((Superquadric{{1e-3, 2e-3, 3e-3}, 0.05, 1.95}.validate()));
+  CHECK_NOTHROW((Superquadric{{1., 1e-4, 9.9e4 * 1e-4}, 1e-6, 2. - 1e-6}.validate()));
+  CHECK_THROWS_WITH((Superquadric{{1., 1e-6, 1.}, 1., 1.}.validate()),
+                    Catch::Contains("ratio") && Catch::Contains("1e+06") && Catch::Contains("1e5"));
   CHECK_THROWS_WITH((Superquadric{{1., 1., 1.}, 2.5, 1.}.validate()),
                     Catch::Contains("exponent") && Catch::Contains("2.5") && Catch::Contains("(0, 2)"));
   CHECK((Superquadric{{1., 1., 1.}, 1., 1.}.is_sphere()));
   CHECK_FALSE((Superquadric{{1., 1., 1.1}, 1., 1.}.is_sphere()));
   CHECK_FALSE((Superquadric{{1., 1., 1.}, 0.9, 1.}.is_sphere()));
+}
+
+TEST_CASE("shapes at the limits have finite, positive volumes and moments of inertia")
+{
+  // Half-axes to the fifth power at the smallest size, 1e-150, are far from the smallest number; powers scale exactly.
+  using namespace shape_limits;
+  for (const double eps1 : {smallest_exponent, 0.1, 1., largest_exponent})
+    for (const double eps2 : {smallest_exponent, 0.1, 1., largest_exponent})
+      for (const double size : {smallest_half_axis, 1., 0.5 * largest_half_axis / largest_ratio})
+      {
+        const Superquadric s{size * Vec3(1., 1e5, 300.), eps1, eps2}, unit{Vec3(1., 1e5, 300.), eps1, eps2};
+        CAPTURE(eps1, eps2, size);
+        s.validate();
+        CHECK(volume(s) > 0.);
+        check_relative(volume(s) / std::pow(size, 3), volume(unit), 1e-13);
+        for (int d = 0; d < 3; ++d)
+        {
+          CHECK(inertia_per_density(s)[d] > 0.);
+          check_relative(inertia_per_density(s)[d] / std::pow(size, 5), inertia_per_density(unit)[d], 1e-13);
+        }
+        CHECK(bounding_radius(s) >= s.half_axes.maxCoeff());
+        CHECK(bounding_radius(s) <= s.half_axes.norm() * (1. + 1e-12));
+      }
+}
+
+TEST_CASE("orientations and places are checked")
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  CHECK((unit_orientation(Quaternion(0., 3., 0., 4.)).coeffs() - Quaternion(0., 0.6, 0., 0.8).coeffs()).norm() < 1e-15);
+  CHECK(std::abs(unit_orientation(Quaternion(1e-99, 0., 0., 1e-99)).norm() - 1.) < 1e-15);
+  CHECK(std::abs(unit_orientation(Quaternion(1e99, 0., 0., 1e99)).norm() - 1.) < 1e-15);
+  for (const double wrong : {0., nan, infinite, 1e-300, 1e300})
+  {
+    CHECK_THROWS_AS(unit_orientation(Quaternion(wrong, 0., 0., 0.)), ConfigError);
+    CHECK_THROWS_AS(unit_orientation(Quaternion(0., 0., wrong, wrong)), ConfigError);
+  }
+  CHECK_THROWS_WITH(unit_orientation(Quaternion(0., 0., 0., 0.)),
+                    Catch::Contains("quaternion is 0") && Catch::Contains("(1, 0, 0, 0)"));
+  CHECK_NOTHROW(require_finite(Vec3(1., -2., 0.), "centre"));
+  CHECK_THROWS_WITH(require_finite(Vec3(1., infinite, 0.), "centre"), Catch::Contains("centre is inf"));
+  CHECK_THROWS_AS(require_finite(Vec3(1., 0., nan), "centre"), ConfigError);
 }

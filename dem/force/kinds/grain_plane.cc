@@ -66,7 +66,8 @@ void locate(ContactSearch &search, const ContactScene &scene, ContactState<doubl
   s.spin += motion.turn_about(s.normal);
   const ContactState<double> before = s;
   const CurvatureBounds<double> bounds = curvature_bounds(pose.shape, scene.parameters.curvature_bound);
-  take_geometry(s, normal, overlap, relative_curvature(frame, g.radii, bounds), scene.law.elastic);
+  take_geometry(s, normal, overlap, relative_curvature(frame, principal_radii(pose, normal, g.radii), bounds),
+                scene.law.elastic);
   s.radius = p.parts.bounding_radius[search.first_part];
   s.budget = motion_budget(scene.parameters, s.radius, overlap, g.radii.norm());
   s.point = g.arm - 0.5 * overlap * normal;
