@@ -130,9 +130,8 @@ void Simulation::rebuild_neighbours()
   if (particles.cell.is_periodic())
     return_to_cell();
   h.edges_when_built = particles.cell.edges;
-  pairs.renew(build_verlet_list(particles.position, particles.bounding_radius, h.verlet_distance, particles.mass,
-                                particles.cell),
-              particles);
+  const BoundingSpheres spheres{particles.position, particles.bounding_radius, particles.mass};
+  pairs.renew(build_verlet_list(spheres, h.verlet_distance, particles.cell), particles);
   wall_contacts.renew(particles, walls, h.verlet_distance);
   h.position_when_built = particles.position;
   h.look_at_motion = particles.largest_motion + 0.5 * h.verlet_distance;
