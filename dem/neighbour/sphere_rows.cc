@@ -51,10 +51,17 @@ double row_number(const SizeClass &size, const int d, const double place)
 
 } // namespace
 
-SphereRows::SphereRows(const BoundingSpheres &spheres, const double verlet_distance, const PeriodicCell &cell)
+void SphereArrays::resize(const std::size_t n_spheres)
 {
-  const std::size_t n = spheres.positions.size();
-  const auto range = [&](const std::size_t i) { return 2. * spheres.radii[i] + verlet_distance; };
+  sphere.resize(n_spheres + pack_width);
+  for (std::vector<double> *numbers : {&place, &x, &y, &z, &radius})
+    numbers->resize(n_spheres + pack_width);
+}
+
+SphereRows::SphereRows(const BoundingSpheres &given, const double verlet_distance, const PeriodicCell &cell)
+{
+  const std::size_t n = given.positions.size();
+  const auto range = [&](const std::size_t i) { return 2. * given.radii[i] + verlet_distance; };
   const double largest = greatest(n, range);
   const auto class_of = [&](const std::size_t i)
   { return range(i) > 0. ? std::min(std::ilogb(largest / range(i)), most_classes - 1) : most_classes - 1; };
@@ -98,7 +105,7 @@ SphereRows::SphereRows(const BoundingSpheres &spheres, const double verlet_dista
   parallel_for(n,
                [&](const std::size_t i)
                {
-                 const Vec3 x = place_in(cell, spheres.positions[i]);
+                 const Vec3 x = place_in(cell, given.positions[i]);
                  const std::int32_t k = used[class_of(i)];
                  entries[i] = {k, static_cast<std::int32_t>(i), row_number(classes[k], 2, x[2]),
                                row_number(classes[k], 1, x[1]), x[0]};
@@ -108,29 +115,32 @@ SphereRows::SphereRows(const BoundingSpheres &spheres, const double verlet_dista
   for (std::size_t s = 0; s < n; ++s)
   {
     const Entry &e = entries[s];
+    SizeClass &size = classes[e.size_class];
     const bool is_new_class = s == 0 || e.size_class != entries[s - 1].size_class;
-    const auto row = static_cast<std::int32_t>(rows.size());
+    const bool is_new_layer = is_new_class || e.z != layers.back().number;
+    const auto n_rows = static_cast<std::int32_t>(rows.size());
     if (is_new_class)
-      classes[e.size_class].begin_rows = row;
-    if (is_new_class || e.z != rows.back().z || e.y != rows.back().y)
-      rows.push_back({e.z, e.y, static_cast<std::int32_t>(s), 0});
+      size.begin_layers = static_cast<std::int32_t>(layers.size());
+    if (is_new_layer)
+      layers.push_back({e.z, n_rows, n_rows});
+    if (is_new_layer || e.y != rows.back().number)
+      rows.push_back({e.y, static_cast<std::int32_t>(s), 0});
     rows.back().end = static_cast<std::int32_t>(s) + 1;
-    classes[e.size_class].end_rows = static_cast<std::int32_t>(rows.size());
+    layers.back().end_rows = static_cast<std::int32_t>(rows.size());
+    size.end_layers = static_cast<std::int32_t>(layers.size());
   }
 
-  sphere.resize(n + pack_width);
-  for (std::vector<double> *numbers : {&place, &x, &y, &z, &radius})
-    numbers->resize(n + pack_width);
+  spheres.resize(n);
   parallel_for(n,
                [&](const std::size_t s)
                {
                  const std::int32_t i = entries[s].sphere;
-                 sphere[s] = i;
-                 place[s] = entries[s].place;
-                 x[s] = spheres.positions[i][0];
-                 y[s] = spheres.positions[i][1];
-                 z[s] = spheres.positions[i][2];
-                 radius[s] = spheres.radii[i];
+                 spheres.sphere[s] = i;
+                 spheres.place[s] = entries[s].place;
+                 spheres.x[s] = given.positions[i][0];
+                 spheres.y[s] = given.positions[i][1];
+                 spheres.z[s] = given.positions[i][2];
+                 spheres.radius[s] = given.radii[i];
                });
 }
 

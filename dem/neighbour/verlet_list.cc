@@ -27,44 +27,31 @@ void for_parts(const std::size_t n, Body &&body)
 }
 
 /// Finds the pairs of the spheres [begin, end) in the order of rows.
-Findings search(RowSearch &&from, const SphereRows &rows, const BoundingSpheres &spheres, const std::int32_t begin,
-                const std::int32_t end)
+Findings find_pairs(RowSearch &&search, const BoundingSpheres &spheres, const std::int32_t begin,
+                    const std::int32_t end)
 {
   Findings findings;
   const auto is_fixed = [&](const std::int32_t i) { return !spheres.masses.empty() && std::isinf(spheres.masses[i]); };
-  const auto keep = [&](const std::int32_t i, const std::int32_t j)
-  {
-    if (j > i)
-      findings.partners.push_back(j);
-    else
-      findings.turned.emplace_back(j, i);
-  };
-  const auto of_pieces = [&](const SizeClass &size, const SphereRow &row)
-  {
-    const std::int32_t first = std::max(begin, row.begin), last = std::min(end, row.end);
-    from.go_to(size, first, last);
-    for (std::int32_t s = first; s < last; ++s)
-    {
-      const std::int32_t i = from.find_next();
-      const std::size_t n_before = findings.partners.size();
-      const bool i_is_fixed = is_fixed(i);
-      for (std::size_t k = 0; k < from.n_found; ++k)
-      {
-        const std::int32_t j = from.found[k];
-        if (!(i_is_fixed && is_fixed(j)) && (spheres.body.empty() || spheres.body[i] != spheres.body[j]))
-          keep(i, j);
-      }
-      findings.n_partners.push_back(static_cast<std::int32_t>(findings.partners.size() - n_before));
-    }
-  };
-  for (const SizeClass &size : rows.classes)
-  {
-    const auto end_rows = rows.rows.begin() + size.end_rows;
-    for (auto row = std::upper_bound(rows.rows.begin() + size.begin_rows, end_rows, begin,
-                                     [](const std::int32_t s, const SphereRow &row) { return s < row.end; });
-         row != end_rows && row->begin < end; ++row)
-      of_pieces(size, *row);
-  }
+  search.for_each_sphere(begin, end,
+                         [&](const std::int32_t i)
+                         {
+                           const std::size_t n_before = findings.partners.size();
+                           const bool i_is_fixed = is_fixed(i);
+                           for (std::size_t k = 0; k < search.n_found; ++k)
+                           {
+                             const std::int32_t j = search.found[k];
+                             if (i_is_fixed && is_fixed(j))
+                               continue;
+                             if (!spheres.body.empty() && spheres.body[i] == spheres.body[j])
+                               continue;
+                             if (j > i)
+                               findings.partners.push_back(j);
+                             else
+                               findings.turned.emplace_back(j, i);
+                           }
+                           findings.n_partners.push_back(
+                               static_cast<std::int32_t>(findings.partners.size() - n_before));
+                         });
   return findings;
 }
 
@@ -87,10 +74,10 @@ VerletList build_verlet_list(const BoundingSpheres &spheres, const double verlet
   for_parts(n,
             [&](const std::size_t part, const std::size_t begin, const std::size_t end)
             {
-              of_part[part] = search(RowSearch(rows, verlet_distance, cell), rows, spheres,
-                                     static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
+              of_part[part] = find_pairs(RowSearch(rows, verlet_distance, cell), spheres,
+                                         static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
               for (std::size_t s = begin; s < end; ++s)
-                list.row[rows.sphere[s]] = of_part[part].n_partners[s - begin];
+                list.row[rows.spheres.sphere[s]] = of_part[part].n_partners[s - begin];
             });
   for (const Findings &findings : of_part)
     for (const auto &[i, j] : findings.turned)
@@ -110,7 +97,7 @@ VerletList build_verlet_list(const BoundingSpheres &spheres, const double verlet
               auto partners = of_part[part].partners.begin();
               for (std::size_t s = begin; s < end; ++s)
               {
-                const std::int32_t i = rows.sphere[s], n_partners = of_part[part].n_partners[s - begin];
+                const std::int32_t i = rows.spheres.sphere[s], n_partners = of_part[part].n_partners[s - begin];
                 std::copy_n(partners, n_partners, list.second.begin() + next[i]);
                 partners += n_partners;
                 std::sort(list.second.begin() + list.row[i], list.second.begin() + list.row[i + 1]);
