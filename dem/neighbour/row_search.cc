@@ -8,7 +8,7 @@ namespace
 {
 
 /// Of the image of a partner against itself in one direction (PeriodicCell::nearest_image). @param line to the partner
-Pack shift_of_nearest(const Pack &line, const double edge)
+BERGAMO_INLINE Pack shift_of_nearest(const Pack &line, const double edge)
 {
   return math::select(line > Pack(0.5 * edge), Pack(-edge),
                       math::select(line < Pack(-0.5 * edge), Pack(edge), Pack(0.)));
@@ -26,7 +26,7 @@ std::int32_t first_from(const std::vector<double> &values, const std::int32_t be
 
 RowSearch::RowSearch(const SphereRows &rows, const double verlet_distance, const PeriodicCell &cell)
     : rows(rows), verlet_distance(verlet_distance), cell(cell),
-      rounding(cell.is_periodic() ? 1e-12 * cell.edges.maxCoeff() : 0.), in_order(rows.classes.size())
+      rounding(cell.is_periodic() ? 1e-12 * cell.edges.maxCoeff() : 0.)
 {
 }
 
@@ -83,7 +83,7 @@ void RowSearch::for_each_near_row(NearLayer &layer, const RowNumbers &numbers, V
   }
 }
 
-void RowSearch::go_to_row(const std::int32_t begin, const std::int32_t end)
+std::pair<Vec3, Vec3> RowSearch::bounds(const std::int32_t begin, const std::int32_t end) const
 {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (std::int32_t s = begin; s < end; ++s)
@@ -92,80 +92,83 @@ void RowSearch::go_to_row(const std::int32_t begin, const std::int32_t end)
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  candidates.clear();
+  return {low, high};
+}
+
+void RowSearch::go_to_row(const std::int32_t begin, const std::int32_t end)
+{
+  const auto [low, high] = bounds(begin, end);
+  const double first_place = low[0];
+  near_rows.clear();
+  larger_rows.clear();
   for (auto layer = near_layers.begin(); layer != near_layers.end();)
   {
     const SizeClass *const other = layer->size;
     const double reach = reach_to(*other);
     const RowNumbers numbers(*other, 1, {low[1] - reach, high[1] + reach});
-    larger.clear();
     for (; layer != near_layers.end() && layer->size == other; ++layer)
-      for_each_near_row(*layer, numbers,
-                        [&](const SphereRow &row)
-                        {
-                          if (other == size)
-                            candidates.push_back({&rows.spheres, reach, row.begin, row.end,
-                                                  first_from(rows.spheres.place, row.begin, row.end, low[0] - reach),
-                                                  true});
-                          else
-                            gather(row, reach, low, high);
-                        });
-    if (larger.empty())
-      continue;
-    SphereArrays &spheres = in_order[other - rows.classes.data()];
-    put_in_order(spheres);
-    candidates.push_back({&spheres, reach, 0, static_cast<std::int32_t>(larger.size()), 0, false});
+      for_each_near_row(
+          *layer, numbers,
+          [&](const SphereRow &row)
+          {
+            if (other == size)
+              near_rows.push_back(
+                  {row.begin, row.end, first_from(rows.spheres.place, row.begin, row.end, first_place - reach)});
+            else
+              larger_rows.push_back({row.begin, row.end, reach});
+          });
   }
 }
 
-void RowSearch::gather(const SphereRow &row, const double reach, const Vec3 &low, const Vec3 &high)
+void RowSearch::gather_larger(const std::int32_t begin, const std::int32_t end)
 {
-  const SphereArrays &all = rows.spheres;
+  n_larger = 0;
+  if (larger_rows.empty())
+    return;
+  const auto [low, high] = bounds(begin, end);
   const Vec3 centre = 0.5 * low + 0.5 * high, half = 0.5 * high - 0.5 * low;
-  const auto is_beside = [&](const double place, const int d)
+  const SphereArrays &all = rows.spheres;
+  const auto is_in_reach = [&](const double place, const int d, const double reach)
   {
     double line = place - centre[d];
     if (cell.is_periodic())
       line -= cell.edges[d] * std::round(line / cell.edges[d]);
-    return std::abs(line) > half[d] * (1. + 1e-12) + reach;
+    return std::abs(line) <= half[d] * (1. + 1e-12) + reach;
   };
-  for (int image = cell.is_periodic() ? -1 : 0; image <= (cell.is_periodic() ? 1 : 0); ++image)
+  const auto gather = [&](const LargerRow &row, const double low_place, const double high_place)
   {
-    const double shift = image == 0 ? 0. : image * cell.edges[0];
-    for (std::int32_t s = first_from(all.place, row.begin, row.end, low[0] - reach - shift);
-         s < row.end && all.place[s] <= high[0] + reach - shift; ++s)
-      if (!is_beside(all.y[s], 1) && !is_beside(all.z[s], 2))
-        larger.push_back({all.place[s] + shift, s});
-  }
-}
-
-void RowSearch::put_in_order(SphereArrays &spheres)
-{
-  std::sort(larger.begin(), larger.end(),
-            [](const Larger &a, const Larger &b)
-            { return a.place != b.place ? a.place < b.place : a.sphere < b.sphere; });
-  const SphereArrays &all = rows.spheres;
-  spheres.resize(larger.size());
-  for (std::size_t k = 0; k < larger.size(); ++k)
+    for (std::int32_t s = first_from(all.place, row.begin, row.end, low_place);
+         s < row.end && all.place[s] <= high_place; ++s)
+      if (is_in_reach(all.y[s], 1, row.reach) && is_in_reach(all.z[s], 2, row.reach))
+      {
+        if (larger.sphere.size() < static_cast<std::size_t>(n_larger + 1 + pack_width))
+          larger.resize(2 * n_larger + 1);
+        larger.put(n_larger++, all, s);
+      }
+  };
+  const double length = cell.edges[0];
+  for (const LargerRow &row : larger_rows)
   {
-    const std::int32_t s = larger[k].sphere;
-    spheres.sphere[k] = all.sphere[s];
-    spheres.place[k] = larger[k].place;
-    spheres.x[k] = all.x[s];
-    spheres.y[k] = all.y[s];
-    spheres.z[k] = all.z[s];
-    spheres.radius[k] = all.radius[s];
+    const double from = low[0] - row.reach, to = high[0] + row.reach;
+    if (to - from >= length - rounding) // all around a periodic cell
+      gather(row, 0., length);
+    else
+    {
+      gather(row, from, to);
+      if (from < 0. && cell.is_periodic())
+        gather(row, from + length, length);
+      if (to > length)
+        gather(row, 0., to - length);
+    }
   }
 }
 
 template <bool is_periodic>
-void RowSearch::look_into(const Candidates &among, const std::int32_t of, const std::int32_t begin,
-                          const std::int32_t end, const double last_place)
+void RowSearch::look_into(const Stretch &others, const std::int32_t of)
 {
-  const SphereArrays &own = rows.spheres, &other = *among.spheres;
-  const std::int32_t least = among.is_own_class ? own.sphere[of] : -1;
+  const SphereArrays &own = rows.spheres, &other = *others.spheres;
   const Pack lanes([](auto lane) { return static_cast<double>(lane); });
-  for (std::int32_t k = begin; k < end && other.place[k] <= last_place; k += pack_width)
+  for (std::int32_t k = others.begin; k < others.end && other.place[k] <= others.last_place; k += pack_width)
   {
     Pack x = math::load(&other.x[k]) - Pack(own.x[of]);
     Pack y = math::load(&other.y[k]) - Pack(own.y[of]);
@@ -177,9 +180,9 @@ void RowSearch::look_into(const Candidates &among, const std::int32_t of, const 
       z += shift_of_nearest(z, cell.edges[2]);
     }
     const Pack range = Pack(own.radius[of]) + math::load(&other.radius[k]) + Pack(verlet_distance);
-    auto is_near = x * x + y * y + z * z < range * range && lanes < Pack(static_cast<double>(end - k));
+    auto is_near = x * x + y * y + z * z < range * range && lanes < Pack(static_cast<double>(others.end - k));
     if constexpr (is_periodic) // what lies further on may be near by another image, and is looked at there
-      is_near = is_near && math::load(&other.place[k]) <= Pack(last_place);
+      is_near = is_near && math::load(&other.place[k]) <= Pack(others.last_place);
     if (!math::any(is_near))
       continue;
     if (found.size() < n_found + pack_width)
@@ -188,44 +191,50 @@ void RowSearch::look_into(const Candidates &among, const std::int32_t of, const 
     {
       const std::int32_t partner = other.sphere[k + l];
       found[n_found] = partner;
-      n_found += math::lane(is_near, l) & (partner > least);
+      n_found += math::lane(is_near, l) & (partner > others.least);
     }
   }
 }
 
 void RowSearch::find_partners(const std::int32_t of)
 {
-  const double place = rows.spheres.place[of];
+  const SphereArrays &all = rows.spheres;
+  const double place = all.place[of], reach = reach_to(*size);
+  const bool is_periodic = cell.is_periodic();
   n_found = 0;
-  for (Candidates &among : candidates)
+  for (NearRow &row : near_rows)
   {
-    const Pack least(place - among.reach);
-    for (int passed = pack_width; passed == pack_width && among.next < among.end; among.next += passed)
-      passed = math::first_true(math::load(&among.spheres->place[among.next]) >= least);
-    among.next = std::min(among.next, among.end);
-    if (cell.is_periodic())
-      look_around(among, of);
+    const Pack least(place - reach);
+    for (int passed = pack_width; passed == pack_width && row.next < row.end; row.next += passed)
+      passed = math::first_true(math::load(&all.place[row.next]) >= least);
+    row.next = std::min(row.next, row.end);
+    if (is_periodic)
+      look_around(row, of);
     else
-      look_into<false>(among, of, among.next, among.end, place + among.reach);
+      look_into<false>({&all, row.next, row.end, place + reach, all.sphere[of]}, of);
   }
+  const Stretch all_larger{&larger, 0, n_larger, std::numeric_limits<double>::infinity(), -1};
+  if (is_periodic)
+    look_into<true>(all_larger, of);
+  else
+    look_into<false>(all_larger, of);
 }
 
-void RowSearch::look_around(const Candidates &among, const std::int32_t of)
+void RowSearch::look_around(const NearRow &row, const std::int32_t of)
 {
-  const std::vector<double> &places = among.spheres->place;
-  const double place = rows.spheres.place[of], low = place - among.reach, high = place + among.reach;
-  look_into<true>(among, of, among.next, among.end, high);
-  if (!among.is_own_class) // those have their images among them
-    return;
+  const SphereArrays &all = rows.spheres;
+  const double place = all.place[of], reach = reach_to(*size), low = place - reach, high = place + reach;
+  const std::int32_t own = all.sphere[of];
+  look_into<true>({&all, row.next, row.end, high, own}, of);
   // What is left beyond each face of the cell: no sphere twice where both meet on the other side.
   const double length = cell.edges[0];
   if (high > length)
-    look_into<true>(among, of, among.begin, among.next, high - length);
+    look_into<true>({&all, row.begin, row.next, high - length, own}, of);
   if (low < 0.)
   {
-    const auto after = std::upper_bound(places.begin() + among.next, places.begin() + among.end, high);
-    const auto begin = static_cast<std::int32_t>(after - places.begin());
-    look_into<true>(among, of, first_from(places, begin, among.end, low + length), among.end, length);
+    const auto after = std::upper_bound(all.place.begin() + row.next, all.place.begin() + row.end, high);
+    const auto begin = static_cast<std::int32_t>(after - all.place.begin());
+    look_into<true>({&all, first_from(all.place, begin, row.end, low + length), row.end, length, own}, of);
   }
 }
 

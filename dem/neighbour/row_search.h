@@ -2,6 +2,7 @@
 
 #include "dem/neighbour/sphere_rows.h"
 
+#include <utility>
 #include <vector>
 
 namespace bergamo::dem
@@ -38,6 +39,8 @@ public:
           go_to_row(first, last);
           for (std::int32_t s = first; s < last; ++s)
           {
+            if ((s - first) % piece == 0)
+              gather_larger(s, std::min(s + piece, last));
             find_partners(s);
             visit(rows.spheres.sphere[s]);
           }
@@ -50,6 +53,8 @@ public:
   std::size_t n_found = 0;
 
 private:
+  static constexpr std::int32_t piece = 16; ///< spheres of a row that look at the same larger ones
+
   /// A layer in reach of that gone to.
   struct NearLayer
   {
@@ -58,37 +63,43 @@ private:
     std::int32_t next_row; ///< where the last search for one ended
   };
 
-  /// Spheres by place among which there may be partners.
-  struct Candidates
+  /// A row in reach, of its own class.
+  struct NearRow
   {
-    const SphereArrays *spheres;
-    double reach; ///< to a partner [m]
     std::int32_t begin, end;
     std::int32_t next; ///< the first that the next sphere may reach
-    bool is_own_class;
   };
 
-  /// A sphere of a larger class, or an image of it.
-  struct Larger
+  /// A row in reach, of larger spheres.
+  struct LargerRow
   {
-    double place;
-    std::int32_t sphere; ///< in the order of rows
+    std::int32_t begin, end;
+    double reach; ///< [m]
+  };
+
+  /// Some spheres [begin, end) in an array, those at places up to the last one.
+  struct Stretch
+  {
+    const SphereArrays *spheres;
+    std::int32_t begin, end;
+    double last_place;
+    std::int32_t least; ///< index of a partner
   };
 
   double reach_to(const SizeClass &other) const;
   void go_to_layer(const SizeClass &size, std::int32_t begin, std::int32_t end);
+  /// Least and greatest places in the cell of spheres.
+  std::pair<Vec3, Vec3> bounds(std::int32_t begin, std::int32_t end) const;
   void go_to_row(std::int32_t begin, std::int32_t end);
   template <class Visit>
   void for_each_near_row(NearLayer &layer, const RowNumbers &numbers, Visit &&visit);
-  void gather(const SphereRow &row, double reach, const Vec3 &low, const Vec3 &high);
-  void put_in_order(SphereArrays &spheres);
+  void gather_larger(std::int32_t begin, std::int32_t end);
   void find_partners(std::int32_t of);
-  void look_around(const Candidates &candidates, std::int32_t of);
+  void look_around(const NearRow &row, std::int32_t of);
 
-  /// Adds the partners among candidates [begin, end) up to a place.
+  /// Adds the partners of a sphere among others.
   template <bool is_periodic>
-  void look_into(const Candidates &candidates, std::int32_t of, std::int32_t begin, std::int32_t end,
-                 double last_place);
+  void look_into(const Stretch &others, std::int32_t of);
 
   const SphereRows &rows;
   const double verlet_distance;
@@ -96,9 +107,10 @@ private:
   const double rounding; ///< of places in the cell and of numbers of rows, with room to spare [m]
   const SizeClass *size = nullptr;
   std::vector<NearLayer> near_layers;
-  std::vector<Candidates> candidates;
-  std::vector<Larger> larger;
-  std::vector<SphereArrays> in_order; ///< the larger spheres of each class
+  std::vector<NearRow> near_rows;
+  std::vector<LargerRow> larger_rows;
+  SphereArrays larger; ///< that may be partners of the piece of a row, in no order
+  std::int32_t n_larger = 0;
 };
 
 } // namespace bergamo::dem

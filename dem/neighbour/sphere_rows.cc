@@ -2,8 +2,8 @@
 
 #include "dem/core/pack.h"
 #include "dem/core/parallel_sort.h"
+#include "dem/neighbour/size_classes.h"
 
-#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -11,8 +11,6 @@ namespace bergamo::dem
 {
 namespace
 {
-
-constexpr int most_classes = 24; // the last one has all that is smaller
 
 struct Entry
 {
@@ -25,24 +23,6 @@ struct Entry
            std::tie(other.size_class, other.z, other.y, other.place, other.sphere);
   }
 };
-
-/// Greatest value(i) over [0, n), at least zero.
-template <class Value>
-double greatest(const std::size_t n, Value &&value)
-{
-  Collected<double> found;
-  parallel_ranges(n, 1024,
-                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
-                  {
-                    double most = 0.;
-                    for (std::size_t i = begin; i < end; ++i)
-                      most = std::max(most, value(i));
-                    found.of(part).push_back(most);
-                  });
-  double most = 0.;
-  found.for_each([&](const double of_part) { most = std::max(most, of_part); });
-  return most;
-}
 
 double row_number(const SizeClass &size, const int d, const double place)
 {
@@ -61,52 +41,24 @@ void SphereArrays::resize(const std::size_t n_spheres)
 SphereRows::SphereRows(const BoundingSpheres &given, const double verlet_distance, const PeriodicCell &cell)
 {
   const std::size_t n = given.positions.size();
-  const auto range = [&](const std::size_t i) { return 2. * given.radii[i] + verlet_distance; };
-  const double largest = greatest(n, range);
-  const auto class_of = [&](const std::size_t i)
-  { return range(i) > 0. ? std::min(std::ilogb(largest / range(i)), most_classes - 1) : most_classes - 1; };
-
-  Collected<std::array<double, most_classes>> ranges;
-  parallel_ranges(n, 1024,
-                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
-                  {
-                    std::array<double, most_classes> most;
-                    most.fill(-1.);
-                    for (std::size_t i = begin; i < end; ++i)
-                    {
-                      double &of_class = most[class_of(i)];
-                      of_class = std::max(of_class, range(i));
-                    }
-                    ranges.of(part).push_back(most);
-                  });
-  std::array<double, most_classes> most;
-  most.fill(-1.);
-  ranges.for_each(
-      [&](const std::array<double, most_classes> &of_part)
-      {
-        for (int k = 0; k < most_classes; ++k)
-          most[k] = std::max(most[k], of_part[k]);
-      });
-  std::array<std::int32_t, most_classes> used;
-  for (int k = 0; k < most_classes; ++k)
-    if (most[k] >= 0.)
-    {
-      used[k] = static_cast<std::int32_t>(classes.size());
-      SizeClass size;
-      size.range = most[k];
-      size.width.setConstant(std::max(most[k], std::numeric_limits<double>::min()));
-      size.n_rows = (cell.edges.array() / size.width.array()).floor().max(1.);
-      if (cell.is_periodic())
-        size.width = cell.edges.cwiseQuotient(size.n_rows);
-      classes.push_back(size);
-    }
+  const SizeClasses sizes = divide_by_size(given.radii, verlet_distance);
+  for (const double range : sizes.range)
+  {
+    SizeClass size;
+    size.range = range;
+    size.width.setConstant(std::max(range, std::numeric_limits<double>::min()));
+    size.n_rows = (cell.edges.array() / size.width.array()).floor().max(1.);
+    if (cell.is_periodic())
+      size.width = cell.edges.cwiseQuotient(size.n_rows);
+    classes.push_back(size);
+  }
 
   std::vector<Entry> entries(n);
   parallel_for(n,
                [&](const std::size_t i)
                {
                  const Vec3 x = place_in(cell, given.positions[i]);
-                 const std::int32_t k = used[class_of(i)];
+                 const std::int32_t k = sizes.size_class[i];
                  entries[i] = {k, static_cast<std::int32_t>(i), row_number(classes[k], 2, x[2]),
                                row_number(classes[k], 1, x[1]), x[0]};
                });

@@ -11,7 +11,7 @@
 namespace bergamo::dem
 {
 
-/// Spheres of like size: the range of each, its diameter and the Verlet distance, is more than half of the largest's.
+/// Spheres of like size (size_classes.h).
 struct SizeClass
 {
   double range = 0.;                             ///< of its largest sphere [m]
@@ -38,11 +38,22 @@ struct SphereRow
 struct SphereArrays
 {
   std::vector<std::int32_t> sphere;    ///< index
-  std::vector<double> place;           ///< x, or that of an image [m]
+  std::vector<double> place;           ///< x, in the cell if it is periodic [m]
   std::vector<double> x, y, z, radius; ///< as given [m]
 
   /// As many numbers as fill a pack stand behind the last sphere.
   void resize(std::size_t n_spheres);
+
+  /// Copies sphere s of others to place k.
+  void put(const std::size_t k, const SphereArrays &others, const std::size_t s)
+  {
+    sphere[k] = others.sphere[s];
+    place[k] = others.place[s];
+    x[k] = others.x[s];
+    y[k] = others.y[s];
+    z[k] = others.z[s];
+    radius[k] = others.radius[s];
+  }
 };
 
 /// Spheres sorted by size and place: classes of size from the largest to the smallest, the layers of each by z, the
@@ -56,7 +67,7 @@ struct SphereRows
   std::vector<SizeClass> classes;
   std::vector<SphereLayer> layers;
   std::vector<SphereRow> rows;
-  SphereArrays spheres; ///< in the order of rows; place: in the cell, if it is periodic
+  SphereArrays spheres; ///< in the order of rows
 };
 
 /// The image of a place that lies in the cell; the place itself where nothing repeats itself [m].
