@@ -170,6 +170,12 @@ BERGAMO_INLINE Pack load(const double *numbers)
   return Pack(numbers, std::experimental::element_aligned);
 }
 
+/// The first lane that is true; of as many as there are, if none is.
+BERGAMO_INLINE int first_true(const Pack::mask_type &mask)
+{
+  return any(mask) ? std::experimental::find_first_set(mask) : pack_width;
+}
+
 BERGAMO_INLINE double lane(const double x, int)
 {
   return x;

@@ -9,7 +9,7 @@ VerletList near_parts(const Particles &p, const double range)
 {
   const Parts &parts = p.parts;
   if (!p.has_clumps())
-    return build_verlet_list(p.position, parts.bounding_radius, range, p.mass, p.cell);
+    return build_verlet_list({p.position, parts.bounding_radius, p.mass}, range, p.cell);
   std::vector<Vec3> position(parts.size());
   std::vector<double> mass(parts.size());
   parallel_for(parts.size(),
@@ -18,7 +18,7 @@ VerletList near_parts(const Particles &p, const double range)
                  position[k] = p.part_position(k);
                  mass[k] = p.mass[parts.particle[k]];
                });
-  return build_verlet_list(position, parts.bounding_radius, range, mass, p.cell);
+  return build_verlet_list({position, parts.bounding_radius, mass, parts.particle}, range, p.cell);
 }
 
 VerletList parts_near_walls(const Particles &p, const std::vector<PlaneWall> &walls, const double range)

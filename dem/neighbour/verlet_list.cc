@@ -1,7 +1,7 @@
 #include "dem/neighbour/verlet_list.h"
 
 #include "dem/core/parallel.h"
-#include "dem/neighbour/cell_grid.h"
+#include "dem/neighbour/row_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,67 +12,47 @@ namespace bergamo::dem
 namespace
 {
 
-/// What pairs are looked for among.
-struct Surroundings
+/// What one part of the spheres in the order of rows has found.
+struct Findings
 {
-  CellGrid grid;
-  std::span<const Vec3> positions;
-  std::span<const double> radii, masses;
-  double verlet_distance;
-  const PeriodicCell &cell;
-
-  Image image(const std::int32_t i, const std::int32_t j) const
-  {
-    return cell.is_periodic() ? cell.nearest_image(positions[j] - positions[i]) : own_image;
-  }
-
-  bool are_near(const std::int32_t i, const std::int32_t j) const
-  {
-    if (!masses.empty() && std::isinf(masses[i]) && std::isinf(masses[j]))
-      return false;
-    const double range = radii[i] + radii[j] + verlet_distance;
-    return (positions[j] - positions[i] + cell.place[image(i, j)]).squaredNorm() < range * range;
-  }
+  std::vector<std::int32_t> n_partners, partners;            ///< of greater index, of one sphere after another
+  std::vector<std::pair<std::int32_t, std::int32_t>> turned; ///< pairs that were found from their second sphere
 };
 
-/// Cells of one direction that are beside or equal to one of n, each once.
-struct CellsBeside
+/// Calls body(part, begin, end) for the same parts of the spheres at every call.
+template <class Body>
+void for_parts(const std::size_t n, Body &&body)
 {
-  int n_cells = 0;
-  int cells[3];
+  parallel_ranges(n, 256, body);
+}
 
-  CellsBeside(const int cell, const int n, const bool is_periodic)
-  {
-    for (int k = cell - 1; k <= cell + 1; ++k)
-    {
-      const int wrapped = is_periodic ? (k + n) % n : k;
-      if (wrapped >= 0 && wrapped < n && std::find(cells, cells + n_cells, wrapped) == cells + n_cells)
-        cells[n_cells++] = wrapped;
-    }
-  }
-  const int *begin() const { return cells; }
-  const int *end() const { return cells + n_cells; }
-};
-
-/// Calls found(j) for every j > i in range of i, cell by cell.
-template <class Found>
-void for_each_neighbour(const Surroundings &s, const std::int32_t i, Found &&found)
+/// Finds the pairs of the spheres [begin, end) in the order of rows.
+Findings find_pairs(RowSearch &&search, const BoundingSpheres &spheres, const std::int32_t begin,
+                    const std::int32_t end)
 {
-  const CellGrid &grid = s.grid;
-  const bool is_periodic = s.cell.is_periodic();
-  const int cell = grid.cell_of[i];
-  const CellsBeside x_cells(cell % grid.n[0], grid.n[0], is_periodic),
-      y_cells(cell / grid.n[0] % grid.n[1], grid.n[1], is_periodic),
-      z_cells(cell / grid.n[0] / grid.n[1], grid.n[2], is_periodic);
-  for (const int z : z_cells)
-    for (const int y : y_cells)
-      for (const int x : x_cells)
-      {
-        const int other = (z * grid.n[1] + y) * grid.n[0] + x;
-        for (int k = grid.begin[other]; k < grid.begin[other + 1]; ++k)
-          if (const std::int32_t j = grid.particles[k]; j > i && s.are_near(i, j))
-            found(j);
-      }
+  Findings findings;
+  const auto is_fixed = [&](const std::int32_t i) { return !spheres.masses.empty() && std::isinf(spheres.masses[i]); };
+  search.for_each_sphere(begin, end,
+                         [&](const std::int32_t i)
+                         {
+                           const std::size_t n_before = findings.partners.size();
+                           const bool i_is_fixed = is_fixed(i);
+                           for (std::size_t k = 0; k < search.n_found; ++k)
+                           {
+                             const std::int32_t j = search.found[k];
+                             if (i_is_fixed && is_fixed(j))
+                               continue;
+                             if (!spheres.body.empty() && spheres.body[i] == spheres.body[j])
+                               continue;
+                             if (j > i)
+                               findings.partners.push_back(j);
+                             else
+                               findings.turned.emplace_back(j, i);
+                           }
+                           findings.n_partners.push_back(
+                               static_cast<std::int32_t>(findings.partners.size() - n_before));
+                         });
+  return findings;
 }
 
 void exclusive_sum(std::vector<std::int32_t> &counts)
@@ -84,36 +64,49 @@ void exclusive_sum(std::vector<std::int32_t> &counts)
 
 } // namespace
 
-VerletList build_verlet_list(const std::span<const Vec3> positions, const std::span<const double> radii,
-                             const double verlet_distance, const std::span<const double> masses,
-                             const PeriodicCell &cell)
+VerletList build_verlet_list(const BoundingSpheres &spheres, const double verlet_distance, const PeriodicCell &cell)
 {
-  const std::size_t n = positions.size();
-  const double largest = radii.empty() ? 1. : *std::max_element(radii.begin(), radii.end());
-  const Surroundings surroundings{
-      CellGrid(positions, 2. * largest + verlet_distance, cell), positions, radii, masses, verlet_distance, cell};
-
+  const std::size_t n = spheres.positions.size();
+  const SphereRows rows(spheres, verlet_distance, cell);
   VerletList list;
   list.row.assign(n + 1, 0);
-  parallel_for(n, [&](const std::size_t i)
-               { for_each_neighbour(surroundings, static_cast<std::int32_t>(i), [&](auto) { ++list.row[i]; }); });
+  std::vector<Findings> of_part(most_parts());
+  for_parts(n,
+            [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+            {
+              of_part[part] = find_pairs(RowSearch(rows, verlet_distance, cell), spheres,
+                                         static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
+              for (std::size_t s = begin; s < end; ++s)
+                list.row[rows.spheres.sphere[s]] = of_part[part].n_partners[s - begin];
+            });
+  for (const Findings &findings : of_part)
+    for (const auto &[i, j] : findings.turned)
+      ++list.row[i];
   exclusive_sum(list.row);
 
   list.first.resize(list.row[n]);
   list.second.resize(list.row[n]);
-  list.image.resize(list.row[n]);
-  parallel_for(n,
-               [&](const std::size_t i)
-               {
-                 std::int32_t next = list.row[i];
-                 for_each_neighbour(surroundings, static_cast<std::int32_t>(i),
-                                    [&](const std::int32_t j) { list.second[next++] = j; });
-                 std::sort(list.second.begin() + list.row[i], list.second.begin() + list.row[i + 1]);
-                 std::fill(list.first.begin() + list.row[i], list.first.begin() + list.row[i + 1],
-                           static_cast<std::int32_t>(i));
-                 for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
-                   list.image[pair] = surroundings.image(static_cast<std::int32_t>(i), list.second[pair]);
-               });
+  list.image.resize(list.row[n], own_image);
+  std::vector<std::int32_t> next(list.row.begin(), list.row.end() - 1);
+  for (const Findings &findings : of_part)
+    for (const auto &[i, j] : findings.turned)
+      list.second[next[i]++] = j;
+  for_parts(n,
+            [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+            {
+              auto partners = of_part[part].partners.begin();
+              for (std::size_t s = begin; s < end; ++s)
+              {
+                const std::int32_t i = rows.spheres.sphere[s], n_partners = of_part[part].n_partners[s - begin];
+                std::copy_n(partners, n_partners, list.second.begin() + next[i]);
+                partners += n_partners;
+                std::sort(list.second.begin() + list.row[i], list.second.begin() + list.row[i + 1]);
+                std::fill(list.first.begin() + list.row[i], list.first.begin() + list.row[i + 1], i);
+                if (cell.is_periodic())
+                  for (auto pair = list.row[i]; pair < list.row[i + 1]; ++pair)
+                    list.image[pair] = cell.nearest_image(spheres.positions[list.second[pair]] - spheres.positions[i]);
+              }
+            });
   return list;
 }
 

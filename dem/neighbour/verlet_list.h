@@ -1,10 +1,9 @@
 #pragma once
 
-#include "dem/core/types.h"
+#include "dem/neighbour/bounding_spheres.h"
 #include "dem/state/periodic_cell.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace bergamo::dem
@@ -21,12 +20,12 @@ struct VerletList
   std::size_t size() const { return second.size(); }
 };
 
-/// @param positions centres [m]; @param radii bounding radii [m]; @param verlet_distance [m], >= 0: the list holds
-/// until any particle has moved half of it (Wellmann 3.48); @param masses pairs of two infinite ones, which are fixed,
-/// are left out; none given, none is fixed [kg]
-/// @param cell in which all positions lie, if it is periodic; its edges at least twice as long as the largest range of
-/// two particles, so that a pair has one image at most
-VerletList build_verlet_list(std::span<const Vec3> positions, std::span<const double> radii, double verlet_distance,
-                             std::span<const double> masses = {}, const PeriodicCell &cell = {});
+/// The list holds until any sphere has moved half of the Verlet distance (Wellmann 3.48). Pairs of two fixed spheres
+/// and of two spheres of one body are left out. The same bits on any number of threads; time and memory grow with the
+/// number of spheres and of pairs, wherever the spheres lie and however much their sizes differ.
+/// @param verlet_distance [m], >= 0
+/// @param cell in which all positions lie, if it is periodic, or outside by half of an edge less the largest range of
+/// two spheres at most; its edges at least twice as long as that range, so that a pair has one image at most
+VerletList build_verlet_list(const BoundingSpheres &spheres, double verlet_distance, const PeriodicCell &cell = {});
 
 } // namespace bergamo::dem

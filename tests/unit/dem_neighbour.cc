@@ -1,5 +1,5 @@
-#include "dem/neighbour/cell_grid.h"
 #include "dem/neighbour/spatial_order.h"
+#include "dem/neighbour/sphere_rows.h"
 #include "dem/neighbour/verlet_list.h"
 
 #include "tests/threads.h"
@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <omp.h>
 #include <random>
@@ -22,7 +24,16 @@ namespace
 struct Cloud
 {
   std::vector<Vec3> positions;
-  std::vector<double> radii;
+  std::vector<double> radii, masses = {};
+  std::vector<std::int32_t> body = {};
+  PeriodicCell cell = {};
+
+  BoundingSpheres spheres() const { return {positions, radii, masses, body}; }
+  void add(const Vec3 &position, const double radius)
+  {
+    positions.push_back(position);
+    radii.push_back(radius);
+  }
 };
 
 Cloud random_cloud(const int n, const Vec3 &extent, const double smallest, const double largest, const int seed)
@@ -39,15 +50,27 @@ Cloud random_cloud(const int n, const Vec3 &extent, const double smallest, const
   return cloud;
 }
 
-using Pairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+using Pairs = std::vector<std::tuple<std::int32_t, std::int32_t, int>>; // both partners, the image of the second
 
 Pairs brute_force(const Cloud &c, const double verlet_distance)
 {
   Pairs pairs;
   for (std::size_t i = 0; i < c.positions.size(); ++i)
     for (std::size_t j = i + 1; j < c.positions.size(); ++j)
-      if ((c.positions[i] - c.positions[j]).norm() < c.radii[i] + c.radii[j] + verlet_distance)
-        pairs.emplace_back(i, j);
+    {
+      if (!c.masses.empty() && std::isinf(c.masses[i]) && std::isinf(c.masses[j]))
+        continue;
+      if (!c.body.empty() && c.body[i] == c.body[j])
+        continue;
+      const Vec3 line = c.positions[j] - c.positions[i];
+      for (int image = 0; image < (c.cell.is_periodic() ? n_images : 1);
+           ++image) // all of them: none is presumed nearest
+      {
+        const int shift = c.cell.is_periodic() ? image : own_image;
+        if ((line + c.cell.place[shift]).norm() < c.radii[i] + c.radii[j] + verlet_distance)
+          pairs.emplace_back(i, j, shift);
+      }
+    }
   return pairs;
 }
 
@@ -55,14 +78,19 @@ Pairs pairs_of(const VerletList &list)
 {
   Pairs pairs;
   for (std::size_t k = 0; k < list.size(); ++k)
-    pairs.emplace_back(list.first[k], list.second[k]);
+    pairs.emplace_back(list.first[k], list.second[k], list.image[k]);
   return pairs;
+}
+
+VerletList list_of(const Cloud &cloud, const double verlet_distance)
+{
+  return build_verlet_list(cloud.spheres(), verlet_distance, cloud.cell);
 }
 
 /// The list is the brute-force one in its order, and its rows point into it.
 void check_list(const Cloud &cloud, const double verlet_distance)
 {
-  const VerletList list = build_verlet_list(cloud.positions, cloud.radii, verlet_distance);
+  const VerletList list = list_of(cloud, verlet_distance);
   const Pairs expected = brute_force(cloud, verlet_distance);
   const std::size_t n = cloud.positions.size();
   CHECK(pairs_of(list) == expected); // made in ascending order of i and then j: equality means sorted, whole and unique
@@ -97,8 +125,7 @@ TEST_CASE("the Verlet list of degenerate sets")
   check_list(random_cloud(1, {1., 1., 1.}, 0.3, 0.5, 1), 0.1);
   check_list({{{0., 0., 0.}, {1., 0., 0.}}, {0.5, 0.4}}, 0.05); // apart
   check_list({{{0., 0., 0.}, {1., 0., 0.}}, {0.5, 0.4}}, 0.2);  // near
-  CHECK(build_verlet_list(std::vector<Vec3>{{0., 0., 0.}, {1., 0., 0.}}, std::vector<double>{0.5, 0.4}, 0.2).size() ==
-        1);
+  CHECK(list_of({{{0., 0., 0.}, {1., 0., 0.}}, {0.5, 0.4}}, 0.2).size() == 1);
   check_list(random_cloud(100, {0.1, 0.1, 0.1}, 0.3, 0.5, 2), 0.1);                         // all in one cell
   check_list({std::vector<Vec3>(20, Vec3(1., 2., 3.)), std::vector<double>(20, 0.1)}, 0.1); // all in one place
   check_list(random_cloud(300, {1000., 1., 1.}, 0.2, 0.5, 3), 0.1);                         // a long thread
@@ -129,25 +156,178 @@ TEST_CASE("a row of touching cells misses no pair across its borders")
   check_list(cloud, 1e-9);
   check_list(cloud, 0.5);
   // 6^3 lattice: 3 * 5 * 36 nearest neighbours at distance 1.
-  CHECK(build_verlet_list(cloud.positions, cloud.radii, 1e-9).size() == 540);
+  CHECK(list_of(cloud, 1e-9).size() == 540);
+}
+
+namespace
+{
+
+/// Radii between 0.01 and 1 by their distribution.
+struct Sizes
+{
+  const char *name;
+  std::function<double(std::mt19937_64 &)> draw;
+};
+
+const std::vector<Sizes> sizes_of_all_kinds{
+    {"a hundredth", [](auto &) { return 0.01; }},
+    {"cubic", // number density ~ r^-3: 1 / r^2 is uniform
+     [](auto &generator) { return 1. / std::sqrt(std::uniform_real_distribution<double>(1., 1e4)(generator)); }},
+    {"Gaussian",
+     [](auto &generator) { return std::clamp(std::normal_distribution<double>(0.2, 0.1)(generator), 0.01, 1.); }},
+    {"as many at every scale",
+     [](auto &generator) { return std::exp(std::uniform_real_distribution<double>(std::log(0.01), 0.)(generator)); }}};
+
+/// One of the lowest, a middle or one of the highest indices, by the seed, has radius 1.
+Cloud cloud_of_sizes(const Sizes &sizes, const bool is_periodic, const int seed)
+{
+  std::mt19937_64 generator(seed);
+  Cloud cloud = random_cloud(600, {5., 4.5, 6.}, 0., 0., seed);
+  for (double &radius : cloud.radii)
+    radius = sizes.draw(generator);
+  cloud.radii[299 * seed % 600] = 1.;
+  if (!is_periodic)
+    return cloud;
+  cloud.cell = PeriodicCell({5., 4.5, 6.});
+  for (Vec3 &x : cloud.positions)
+    x += 0.3 * Vec3(5., 4.5, 6.);
+  return cloud;
+}
+
+} // namespace
+
+TEST_CASE("the Verlet list for sizes of a hundred to one, in a box and in a periodic cell")
+{
+  for (const Sizes &sizes : sizes_of_all_kinds)
+    for (int seed = 0; seed < 6; ++seed)
+    {
+      INFO(sizes.name);
+      check_list(cloud_of_sizes(sizes, seed % 2, seed), 0.02);
+      check_list(cloud_of_sizes(sizes, seed % 2, seed), 0.);
+    }
+}
+
+TEST_CASE("classes of size follow their own largest sphere")
+{
+  // Rows of small spheres stay as they are when a large one comes.
+  Cloud cloud = random_cloud(2000, {3., 3., 3.}, 0.1, 0.1, 3);
+  const SphereRows alone(cloud.spheres(), 0.01, {});
+  REQUIRE(alone.classes.size() == 1);
+  cloud.add({1., 1., 1.}, 10.);
+  const SphereRows beside(cloud.spheres(), 0.01, {});
+  REQUIRE(beside.classes.size() == 2);
+  CHECK(beside.classes[0].range == 2. * 10. + 0.01);
+  CHECK(beside.classes[1].range == alone.classes[0].range);
+  REQUIRE(beside.rows.size() == alone.rows.size() + 1);
+  bool is_same = true;
+  for (std::size_t k = 0; k < alone.rows.size(); ++k)
+  {
+    const SphereRow &row = beside.rows[k + 1];
+    is_same = is_same && row.end - row.begin == alone.rows[k].end - alone.rows[k].begin;
+  }
+  CHECK(is_same);
+}
+
+TEST_CASE("grains that have left change nothing for the others")
+{
+  const Cloud bulk = random_cloud(500, {4., 4., 4.}, 0.2, 0.3, 21);
+  const SphereRows rows(bulk.spheres(), 0.05, {});
+  for (const double distance : {1e4, 1e9, 1e18, 1e300, 1.7e308})
+    for (const Vec3 &direction : {Vec3(1., 0., 0.), Vec3(0., -1., 0.), Vec3(0., 0., 1.), Vec3(-1., 1., -1.)})
+    {
+      Cloud cloud = bulk;
+      cloud.positions.insert(cloud.positions.begin() + 100, distance * direction);
+      cloud.radii.insert(cloud.radii.begin() + 100, 0.2);
+      cloud.add(-distance * direction, 0.2);
+      cloud.add(distance * direction + Vec3(0.1, 0.1, 0.1), 0.2);
+      check_list(cloud, 0.05);
+      // Rows of the bulk are no wider: the far ones lie in others or at the ends of these.
+      const SphereRows with_far(cloud.spheres(), 0.05, {});
+      CHECK(with_far.classes[0].width == rows.classes[0].width);
+      CHECK(with_far.rows.size() >= rows.rows.size());
+    }
+  // As many far away as near, each alone: there are no more rows than spheres.
+  Cloud gas = bulk;
+  for (const Vec3 &x : random_cloud(500, Vec3::Constant(1e300), 0., 0., 22).positions)
+    gas.add(x, 0.2);
+  check_list(gas, 0.05);
+  CHECK(SphereRows(gas.spheres(), 0.05, {}).rows.size() <= gas.positions.size());
+}
+
+TEST_CASE("the Verlet list in a periodic cell of the least size and in long ones")
+{
+  for (int seed = 0; seed < 5; ++seed)
+    for (const Vec3 &edges : {Vec3(2.2, 2.2, 2.2), Vec3(2.2, 2.7, 3.4), Vec3(40., 2.2, 2.3), Vec3(2.2, 3.3, 40.)})
+    {
+      Cloud cloud = random_cloud(150, edges, 0.2, 0.5, seed);
+      cloud.cell = PeriodicCell(edges);
+      cloud.radii[seed] = 0.5;
+      for (Vec3 &x : cloud.positions)
+        x += 0.3 * edges;
+      cloud.positions[0].setZero();
+      cloud.positions[1] = edges.cwiseProduct(Vec3(0.5, 0., 0.5));
+      check_list(cloud, 0.1);
+      // Parts of bodies whose centres lie in the cell lie outside by up to their radius.
+      for (std::size_t i = 0; i < cloud.positions.size(); ++i)
+        cloud.positions[i] += cloud.radii[i] * random_cloud(1, {1.4, 1.4, 1.4}, 0., 0., i).positions[0];
+      check_list(cloud, 0.1);
+      for (std::size_t i = 0; i < cloud.positions.size(); ++i) // a rounding beyond the face
+        if (i % 3 == 0)
+          cloud.positions[i] = cloud.positions[i].cwiseMin(Vec3::Constant(-1e-18));
+      check_list(cloud, 0.1);
+    }
+}
+
+TEST_CASE("pairs of fixed grains and of parts of one body are left out")
+{
+  for (const bool is_periodic : {false, true})
+    for (const Sizes &sizes : sizes_of_all_kinds)
+    {
+      Cloud cloud = cloud_of_sizes(sizes, is_periodic, 8 + is_periodic);
+      const std::size_t n_all = list_of(cloud, 0.3).size();
+      for (std::size_t i = 0; i < cloud.positions.size(); ++i)
+        cloud.masses.push_back(i % 3 == 0 ? std::numeric_limits<double>::infinity() : 1.);
+      check_list(cloud, 0.3);
+      const std::size_t n_free = list_of(cloud, 0.3).size();
+      CHECK(n_free < n_all);
+      for (std::size_t i = 0; i < cloud.positions.size(); ++i)
+        cloud.body.push_back(static_cast<std::int32_t>(i % 7)); // far-off indices of one body
+      check_list(cloud, 0.3);
+      CHECK(list_of(cloud, 0.3).size() < n_free);
+      std::iota(cloud.body.begin(), cloud.body.end(), 0); // each by itself
+      CHECK(list_of(cloud, 0.3).size() == n_free);
+    }
 }
 
 TEST_CASE("the Verlet list is the same for any number of threads")
 {
-  const Cloud cloud = random_cloud(2000, {10., 10., 10.}, 0.2, 0.5, 9);
-  std::vector<VerletList> lists;
-  for (const int n : {1, 2, 3})
-  {
-    const Threads threads(n);
-    lists.push_back(build_verlet_list(cloud.positions, cloud.radii, 0.1));
-  }
-  CHECK(lists[0].size() > 1000);
-  for (const VerletList &list : lists)
-  {
-    CHECK(list.row == lists[0].row);
-    CHECK(list.first == lists[0].first);
-    CHECK(list.second == lists[0].second);
-  }
+  for (const bool is_periodic : {false, true})
+    for (const Sizes &sizes : sizes_of_all_kinds)
+    {
+      Cloud cloud = random_cloud(9000, {4., 4., 4.}, 0., 0., 9); // more than one run of a sort
+      std::mt19937_64 generator(9);
+      for (double &radius : cloud.radii)
+        radius = 0.5 * sizes.draw(generator);
+      if (is_periodic)
+        cloud.cell = PeriodicCell(Vec3::Constant(4.));
+      std::vector<VerletList> lists;
+      std::vector<std::vector<std::int32_t>> orders;
+      for (const int n : {1, 2, 3, 8})
+      {
+        const Threads threads(n);
+        lists.push_back(list_of(cloud, 0.1));
+        orders.push_back(spatial_order(cloud.positions, 0.5));
+      }
+      CHECK(lists[0].size() > 1000);
+      for (std::size_t k = 1; k < lists.size(); ++k)
+      {
+        CHECK(lists[k].row == lists[0].row);
+        CHECK(lists[k].first == lists[0].first);
+        CHECK(lists[k].second == lists[0].second);
+        CHECK(lists[k].image == lists[0].image);
+        CHECK(orders[k] == orders[0]);
+      }
+    }
 }
 
 TEST_CASE("the spatial order is a permutation that goes from cell to next cell")
@@ -171,14 +351,37 @@ TEST_CASE("the spatial order is a permutation that goes from cell to next cell")
   const std::vector<std::int32_t> curve = spatial_order(lattice, 1.);
   for (std::size_t k = 1; k < curve.size(); ++k)
     CHECK((lattice[curve[k]] - lattice[curve[k - 1]]).lpNorm<1>() == 1.);
-  // The grid holds every particle once, in the cell that it claims.
-  const Cloud cloud = random_cloud(500, {3., 9., 27.}, 0.1, 0.2, 12);
-  const CellGrid grid(cloud.positions, 1.);
-  CHECK(grid.begin.size() == static_cast<std::size_t>(grid.n[0] * grid.n[1] * grid.n[2]) + 1);
-  CHECK(grid.begin.back() == 500);
-  for (std::size_t cell = 0; cell + 1 < grid.begin.size(); ++cell)
-    for (auto k = grid.begin[cell]; k < grid.begin[cell + 1]; ++k)
-      CHECK(grid.cell_of[grid.particles[k]] == static_cast<std::int32_t>(cell));
+}
+
+TEST_CASE("the spatial order keeps neighbours together when grains have left")
+{
+  std::vector<Vec3> bulk;
+  for (int cell = 0; cell < 4096; ++cell)
+    bulk.emplace_back(cell % 16 + 0.25, cell / 16 % 16 + 0.25, cell / 256 + 0.25);
+  const auto path = [&](const std::vector<std::int32_t> &order)
+  {
+    double length = 0.;
+    std::int32_t last = -1;
+    for (const std::int32_t i : order)
+      if (i < 4096) // of the bulk
+      {
+        length += last < 0 ? 0. : (bulk[i] - bulk[last]).norm();
+        last = i;
+      }
+    return length;
+  };
+  CHECK(path(spatial_order(bulk, 1.)) == 4095.);
+  for (const double distance : {1e4, 1e7, 1e300, 1.7e308})
+    for (const Vec3 &direction : {Vec3(1., 0., 0.), Vec3(0., -1., 0.), Vec3(-1., 1., -1.)})
+    {
+      std::vector<Vec3> positions = bulk;
+      positions.push_back(distance * direction);
+      positions.push_back(-0.5 * distance * direction);
+      const std::vector<std::int32_t> order = spatial_order(positions, 1.);
+      // The cube may lie across cells of the curve, which costs some longer ways; by x, y and z each step were one of a
+      // row, but every sixteenth a way back of sixteen: twice as far.
+      CHECK(path(order) < 1.5 * 4095.);
+    }
 }
 
 TEST_CASE("the spatial order does not depend on the order in which the particles came")

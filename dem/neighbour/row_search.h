@@ -1,0 +1,116 @@
+#pragma once
+
+#include "dem/neighbour/sphere_rows.h"
+
+#include <utility>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Looks for the partners of spheres one after another, in the order of rows. One for each thread.
+class RowSearch
+{
+public:
+  /// All are kept by reference.
+  RowSearch(const SphereRows &rows, double verlet_distance, const PeriodicCell &cell);
+
+  /// Calls visit(i) with the index i of each sphere of [begin, end) in the order of rows, with its partners in `found`:
+  /// those of its own class and of greater index, and those in the classes of larger spheres. So every pair is found
+  /// once, and nothing is looked for among the many small spheres around a large one.
+  template <class Visit>
+  void for_each_sphere(const std::int32_t begin, const std::int32_t end, Visit &&visit)
+  {
+    const auto last_of = [&](const SphereLayer &layer) { return rows.rows[layer.end_rows - 1].end; };
+    for (const SizeClass &size : rows.classes)
+    {
+      const auto end_layers = rows.layers.begin() + size.end_layers;
+      for (auto layer = std::partition_point(rows.layers.begin() + size.begin_layers, end_layers,
+                                             [&](const SphereLayer &l) { return last_of(l) <= begin; });
+           layer != end_layers && rows.rows[layer->begin_rows].begin < end; ++layer)
+      {
+        go_to_layer(size, std::max(begin, rows.rows[layer->begin_rows].begin), std::min(end, last_of(*layer)));
+        const auto end_rows = rows.rows.begin() + layer->end_rows;
+        for (auto row = std::partition_point(rows.rows.begin() + layer->begin_rows, end_rows,
+                                             [&](const SphereRow &r) { return r.end <= begin; });
+             row != end_rows && row->begin < end; ++row)
+        {
+          const std::int32_t first = std::max(begin, row->begin), last = std::min(end, row->end);
+          go_to_row(first, last);
+          for (std::int32_t s = first; s < last; ++s)
+          {
+            if ((s - first) % piece == 0)
+              gather_larger(s, std::min(s + piece, last));
+            find_partners(s);
+            visit(rows.spheres.sphere[s]);
+          }
+        }
+      }
+    }
+  }
+
+  std::vector<std::int32_t> found; ///< indices of n_found partners, in no order that matters; room behind them
+  std::size_t n_found = 0;
+
+private:
+  static constexpr std::int32_t piece = 16; ///< spheres of a row that look at the same larger ones
+
+  /// A layer in reach of that gone to.
+  struct NearLayer
+  {
+    const SizeClass *size;
+    std::int32_t begin_rows, end_rows;
+    std::int32_t next_row; ///< where the last search for one ended
+  };
+
+  /// A row in reach, of its own class.
+  struct NearRow
+  {
+    std::int32_t begin, end;
+    std::int32_t next; ///< the first that the next sphere may reach
+  };
+
+  /// A row in reach, of larger spheres.
+  struct LargerRow
+  {
+    std::int32_t begin, end;
+    double reach; ///< [m]
+  };
+
+  /// Some spheres [begin, end) in an array, those at places up to the last one.
+  struct Stretch
+  {
+    const SphereArrays *spheres;
+    std::int32_t begin, end;
+    double last_place;
+    std::int32_t least; ///< index of a partner
+  };
+
+  double reach_to(const SizeClass &other) const;
+  void go_to_layer(const SizeClass &size, std::int32_t begin, std::int32_t end);
+  /// Least and greatest places in the cell of spheres.
+  std::pair<Vec3, Vec3> bounds(std::int32_t begin, std::int32_t end) const;
+  void go_to_row(std::int32_t begin, std::int32_t end);
+  template <class Visit>
+  void for_each_near_row(NearLayer &layer, const RowNumbers &numbers, Visit &&visit);
+  void gather_larger(std::int32_t begin, std::int32_t end);
+  void find_partners(std::int32_t of);
+  void look_around(const NearRow &row, std::int32_t of);
+
+  /// Adds the partners of a sphere among others.
+  template <bool is_periodic>
+  void look_into(const Stretch &others, std::int32_t of);
+
+  const SphereRows &rows;
+  const double verlet_distance;
+  const PeriodicCell &cell;
+  const double rounding; ///< of places in the cell and of numbers of rows, with room to spare [m]
+  const SizeClass *size = nullptr;
+  std::vector<NearLayer> near_layers;
+  std::vector<NearRow> near_rows;
+  std::vector<LargerRow> larger_rows;
+  SphereArrays larger; ///< that may be partners of the piece of a row, in no order
+  std::int32_t n_larger = 0;
+};
+
+} // namespace bergamo::dem
