@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/io/archive.h"
+#include "dem/core/archive.h"
 #include "dem/simulation.h"
 
 #include <memory>

@@ -2,8 +2,8 @@
 
 #include "dem/core/error.h"
 #include "dem/core/parallel.h"
-#include "dem/io/whole_file.h"
-#include "dem/io/xml.h"
+#include "dem/core/whole_file.h"
+#include "dem/core/xml.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -1,7 +1,7 @@
-#include "dem/io/archive.h"
+#include "dem/core/archive.h"
 
 #include "dem/core/error.h"
-#include "dem/io/whole_file.h"
+#include "dem/core/whole_file.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 namespace
@@ -438,4 +438,4 @@ void ArchiveReader::read_into(const std::string &name, const std::span<std::int6
   state_->read_array_into(name, values);
 }
 
-} // namespace bergamo::dem
+} // namespace bergamo
