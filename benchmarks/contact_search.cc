@@ -12,6 +12,7 @@
 namespace
 {
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 struct TouchingPair

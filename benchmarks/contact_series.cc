@@ -26,6 +26,7 @@
 namespace
 {
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 struct AngularClass

@@ -38,8 +38,8 @@ double operations_per_second()
   constexpr int n_rounds = 1000000;
   Points chain[n_chains];
   for (int k = 0; k < n_chains; ++k)
-    chain[k] = Points{} + (1. + k);
-  Points factor = Points{} + 0.999, summand = Points{} + 1e-3;
+    chain[k] = Points(1. + k);
+  Points factor(0.999), summand(1e-3);
   asm volatile("" : "+m"(factor), "+m"(summand)); // no constants
   const auto start = std::chrono::steady_clock::now();
   for (int round = 0; round < n_rounds; ++round)
@@ -71,7 +71,7 @@ double bytes_per_second(const std::vector<Points> &memory)
 
 void raise_core_peak(CorePeak &peak)
 {
-  const std::vector<Points> memory(std::size_t(1) << 22, Points{} + 1.); // 256 MiB
+  const std::vector<Points> memory(std::size_t(1) << 22, Points(1.)); // 256 MiB
   for (int n = 0; n < n_tries; ++n)
   {
     peak.operations = std::max(peak.operations, operations_per_second());

@@ -16,8 +16,8 @@ void require_range(const std::string &option, const int value, const int least, 
                    const std::string &reason)
 {
   if (value < least || value > most)
-    throw dem::ConfigError(option + ' ' + std::to_string(value) + " is out of range; allowed: " +
-                           std::to_string(least) + " to " + std::to_string(most) + " (" + reason + ')');
+    throw ConfigError(option + ' ' + std::to_string(value) + " is out of range; allowed: " + std::to_string(least) +
+                      " to " + std::to_string(most) + " (" + reason + ')');
 }
 
 std::vector<GrainKind> kinds_of(const std::vector<std::string> &names)
@@ -29,7 +29,7 @@ std::vector<GrainKind> kinds_of(const std::vector<std::string> &names)
     else if (text == name(GrainKind::spheres))
       kinds.push_back(GrainKind::spheres);
     else
-      throw dem::ConfigError("--shapes '" + text + "' is unknown; give superquadrics, spheres or both with a comma");
+      throw ConfigError("--shapes '" + text + "' is unknown; give superquadrics, spheres or both with a comma");
   return kinds;
 }
 
@@ -38,7 +38,7 @@ void require_distinct(const std::string &option, const std::vector<T> &values)
 {
   for (std::size_t i = 1; i < values.size(); ++i)
     if (std::find(values.begin(), values.begin() + i, values[i]) != values.begin() + i)
-      throw dem::ConfigError(option + " names the same value twice; give each once");
+      throw ConfigError(option + " names the same value twice; give each once");
 }
 
 void check(const DensePackingOptions &options)

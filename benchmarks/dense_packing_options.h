@@ -23,7 +23,7 @@ struct DensePackingOptions
   bool with_liggghts = true;
 };
 
-/// Reads and checks the command line; nothing after --help. @throws dem::ConfigError
+/// Reads and checks the command line; nothing after --help. @throws ConfigError
 std::optional<DensePackingOptions> parse_dense_packing_options(int argc, const char *const *argv);
 
 } // namespace bergamo::benchmark

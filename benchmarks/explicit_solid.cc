@@ -45,7 +45,7 @@ std::vector<SolidCase> chosen_cases(const Options &options)
   };
   std::erase_if(cases, is_left_out);
   if (cases.empty())
-    throw dem::ConfigError("--only '" + options.only + "' names no case; give a part of a name such as 'Ogden 27'");
+    throw ConfigError("--only '" + options.only + "' names no case; give a part of a name such as 'Ogden 27'");
   return cases;
 }
 

@@ -16,8 +16,6 @@ namespace bergamo::benchmark
 namespace
 {
 
-using dem::Vec3;
-
 constexpr double pi = std::numbers::pi;
 constexpr double slope = 0.57735026918962576; // tan 30 degrees: radius over height of the cones
 constexpr double wall_radius = 1e-3;          // of the spheres that make up the walls [m]
@@ -54,8 +52,7 @@ void add_walls(dem::Particles &particles, const Shape &shape, const double botto
     for (int k = 0; k < n; ++k)
     {
       const double angle = 2. * pi * (k + 0.5 * (ring % 2)) / n;
-      particles.add(sphere, 2650., Vec3(radius * std::cos(angle), radius * std::sin(angle), z),
-                    dem::Quaternion::Identity());
+      particles.add(sphere, 2650., Vec3(radius * std::cos(angle), radius * std::sin(angle), z), Quaternion::Identity());
       particles.fix(particles.size() - 1);
     }
     const bool is_cone = std::abs(z) < shape.cone_height();
@@ -89,12 +86,12 @@ FlowFigures figures_after_step(const dem::Simulation &hourglass)
 
 std::unique_ptr<dem::Simulation> read_hourglass(const std::filesystem::path &path, const HourglassRecipe &recipe)
 {
-  const dem::ArchiveReader archive(path, archive_kind);
+  const ArchiveReader archive(path, archive_kind);
   if (archive.read_integer("recipe/route") != route || archive.read_integer("recipe/n_grains") != recipe.n_grains ||
       archive.read_double("recipe/neck_radius") != recipe.neck_radius ||
       archive.read_double("recipe/young_modulus") != recipe.young_modulus ||
       archive.read_double("recipe/flow_time") != recipe.flow_time)
-    throw dem::RunError(path.string() + " was made in another way");
+    throw RunError(path.string() + " was made in another way");
   auto hourglass = dem::read_simulation(archive, parameters_of(recipe));
   const FlowFigures figures = figures_after_step(*hourglass);
   const auto agrees = [&](const char *name, const double value)
@@ -104,14 +101,14 @@ std::unique_ptr<dem::Simulation> read_hourglass(const std::filesystem::path &pat
   };
   if (!agrees("figures/coordination_number", figures.coordination_number) ||
       !agrees("figures/mean_speed", figures.mean_speed))
-    throw dem::RunError(path.string() + " does not give back the flow that was stored");
+    throw RunError(path.string() + " does not give back the flow that was stored");
   return hourglass;
 }
 
 void write_hourglass(const std::filesystem::path &path, const HourglassRecipe &recipe, const dem::Simulation &hourglass)
 {
   const FlowFigures figures = figures_after_step(hourglass);
-  dem::ArchiveWriter archive(path, archive_kind);
+  ArchiveWriter archive(path, archive_kind);
   archive.write("recipe/route", route);
   archive.write("recipe/n_grains", recipe.n_grains);
   archive.write("recipe/neck_radius", recipe.neck_radius);
@@ -212,7 +209,7 @@ std::unique_ptr<dem::Simulation> cached_hourglass(const std::filesystem::path &f
       log("hourglass read from " + path.string());
       return hourglass;
     }
-    catch (const dem::RunError &error)
+    catch (const RunError &error)
     {
       log(std::string("hourglass made anew, because ") + error.what());
     }

@@ -20,6 +20,7 @@
 namespace
 {
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 constexpr int n_pairs = 64, n_packs = n_pairs / pack_width, n_grains = 2 * n_pairs;

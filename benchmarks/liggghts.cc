@@ -29,7 +29,7 @@ fs::path make_folder()
 {
   std::string path = (fs::temp_directory_path() / "bergamo_liggghts_XXXXXX").string();
   if (!mkdtemp(path.data()))
-    throw dem::RunError("cannot make the folder " + path + " for LIGGGHTS; set TMPDIR to a folder you may write to");
+    throw RunError("cannot make the folder " + path + " for LIGGGHTS; set TMPDIR to a folder you may write to");
   return path;
 }
 
@@ -46,7 +46,7 @@ void write_text(const fs::path &path, const std::string &text)
   std::ofstream file(path);
   file << text;
   if (!file.flush())
-    throw dem::RunError("cannot write " + path.string() + "; free some space or set TMPDIR to another folder");
+    throw RunError("cannot write " + path.string() + "; free some space or set TMPDIR to another folder");
 }
 
 std::string data_text(const dem::Simulation &packing)
@@ -72,9 +72,9 @@ double number_after(const std::string &text, const std::string &key)
 {
   const auto at = text.rfind(key);
   if (at == std::string::npos)
-    throw dem::RunError("LIGGGHTS printed no '" + key +
-                        "': this version is unknown here; go without it by "
-                        "--no-liggghts");
+    throw RunError("LIGGGHTS printed no '" + key +
+                   "': this version is unknown here; go without it by "
+                   "--no-liggghts");
   return std::strtod(text.c_str() + at + key.size(), nullptr);
 }
 
@@ -85,9 +85,9 @@ std::string part(const std::string &text, const std::string &key, const int n)
   for (int i = 0; i <= n && begin != std::string::npos; ++i)
     begin = text.find(key, i == 0 ? 0 : begin + key.size());
   if (begin == std::string::npos)
-    throw dem::RunError("LIGGGHTS printed no '" + key +
-                        "': this version is unknown here; go without it by "
-                        "--no-liggghts");
+    throw RunError("LIGGGHTS printed no '" + key +
+                   "': this version is unknown here; go without it by "
+                   "--no-liggghts");
   return text.substr(begin, text.find(key, begin + key.size()) - begin);
 }
 
@@ -200,16 +200,16 @@ LiggghtsRun Liggghts::run(const int n_steps, const double skin) const
                               quoted(program) + " -log none -in in.spheres 2>&1 < /dev/null";
   FILE *const pipe = popen(command.c_str(), "r");
   if (!pipe)
-    throw dem::RunError("cannot start " + program.string() + "; go without it by --no-liggghts");
+    throw RunError("cannot start " + program.string() + "; go without it by --no-liggghts");
   std::string output;
   std::array<char, 4096> buffer;
   while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
     output.append(buffer.data(), n);
   const int status = pclose(pipe);
   if (status != 0)
-    throw dem::RunError(program.string() + " failed with status " +
-                        std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : status) + ": " + last_lines(output) +
-                        "\ngo without it by --no-liggghts");
+    throw RunError(program.string() + " failed with status " +
+                   std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : status) + ": " + last_lines(output) +
+                   "\ngo without it by --no-liggghts");
 
   const std::string measured = part(output, "Loop time of ", 1); // 0 is the warm-up
   LiggghtsRun result;

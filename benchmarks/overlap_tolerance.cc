@@ -26,8 +26,8 @@ constexpr double strain_rate = 10.; // of the packing's height [1/s]
 
 struct Outcome
 {
-  std::map<std::pair<int, int>, dem::Vec3> force; ///< by grains [N]
-  double seconds = 0., searches = 0.;             ///< searches a contact and step
+  std::map<std::pair<int, int>, Vec3> force; ///< by grains [N]
+  double seconds = 0., searches = 0.;        ///< searches a contact and step
 };
 
 Outcome compress(const dem::Simulation &packing, const double tolerance, const int n_steps)
@@ -37,7 +37,7 @@ Outcome compress(const dem::Simulation &packing, const double tolerance, const i
   parameters.contact.overlap_tolerance = tolerance;
   simulation.change(parameters);
   const double height = simulation.walls[5].point[2] - simulation.walls[4].point[2];
-  simulation.walls[5].velocity = dem::Vec3(0., 0., -strain_rate * height);
+  simulation.walls[5].velocity = Vec3(0., 0., -strain_rate * height);
   const auto n_searches = simulation.contacts.n_searches();
   const auto start = std::chrono::steady_clock::now();
   for (int n = 0; n < n_steps; ++n)
@@ -55,7 +55,7 @@ Outcome compress(const dem::Simulation &packing, const double tolerance, const i
 double relative_error(const Outcome &outcome, const Outcome &reference)
 {
   double error = 0., sum = 0.;
-  const dem::Vec3 none = dem::Vec3::Zero();
+  const Vec3 none = Vec3::Zero();
   for (const auto &[grains, force] : reference.force)
   {
     const auto found = outcome.force.find(grains);

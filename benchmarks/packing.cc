@@ -88,7 +88,7 @@ std::string curve_table(const std::vector<dem::AdditionRound> &rounds, const std
   return file.str();
 }
 
-void commit(dem::WholeFile &file, const std::string &text)
+void commit(WholeFile &file, const std::string &text)
 {
   file.write(text);
   file.commit();
@@ -96,7 +96,7 @@ void commit(dem::WholeFile &file, const std::string &text)
 
 nlohmann::json measure(const Options &options)
 {
-  std::optional<dem::WholeFile> curves, sizes; // opened now, so that a wrong path is known before any work
+  std::optional<WholeFile> curves, sizes; // opened now, so that a wrong path is known before any work
   if (!options.curves.empty())
     curves.emplace(options.curves);
   if (!options.sizes.empty())
@@ -110,7 +110,7 @@ nlohmann::json measure(const Options &options)
     solid_volume += dem::volume(grains.back());
   }
   const double edge = std::cbrt(solid_volume / options.solid_fraction);
-  const auto space = dem::PackingSpace::periodic({dem::Vec3::Zero(), dem::Vec3::Constant(edge)});
+  const auto space = dem::PackingSpace::periodic({Vec3::Zero(), Vec3::Constant(edge)});
   dem::LoosePacking loose;
   loose.size = std::min(1., std::cbrt(options.start_solid_fraction / options.solid_fraction));
   std::vector<dem::Superquadric> small = grains;

@@ -27,10 +27,10 @@ PackingFigures figures_after_step(const dem::Simulation &packing)
 
 std::unique_ptr<dem::Simulation> read_packing(const fs::path &path, const PackingRecipe &recipe)
 {
-  const dem::ArchiveReader archive(path, archive_kind);
+  const ArchiveReader archive(path, archive_kind);
   if (archive.read_integer("recipe/route") != route || archive.read_double("recipe/pressure") != recipe.pressure ||
       archive.read_integer("recipe/seed") != static_cast<std::int64_t>(recipe.seed))
-    throw dem::RunError(path.string() + " was packed in another way");
+    throw RunError(path.string() + " was packed in another way");
   auto packing = dem::read_simulation(archive, sand_parameters());
   const PackingFigures figures = figures_after_step(*packing);
   const auto agrees = [&](const char *name, const double value)
@@ -41,14 +41,14 @@ std::unique_ptr<dem::Simulation> read_packing(const fs::path &path, const Packin
   if (static_cast<int>(packing->particles.size()) != recipe.n_grains ||
       !agrees("figures/coordination_number", figures.coordination_number) ||
       !agrees("figures/pressure", figures.pressure) || !agrees("figures/solid_fraction", figures.solid_fraction))
-    throw dem::RunError(path.string() + " does not give back the packing that was stored");
+    throw RunError(path.string() + " does not give back the packing that was stored");
   return packing;
 }
 
 void write_packing(const fs::path &path, const PackingRecipe &recipe, const dem::Simulation &packing)
 {
   const PackingFigures figures = figures_after_step(packing);
-  dem::ArchiveWriter archive(path, archive_kind);
+  ArchiveWriter archive(path, archive_kind);
   archive.write("recipe/route", route);
   archive.write("recipe/pressure", recipe.pressure);
   archive.write("recipe/seed", recipe.seed);
@@ -74,7 +74,7 @@ std::unique_ptr<dem::Simulation> cached_packing(const fs::path &folder, const Pa
       log(title + ": settled packing read from " + path.string());
       return packing;
     }
-    catch (const dem::RunError &error)
+    catch (const RunError &error)
     {
       log(title + ": packed anew, because " + error.what());
     }

@@ -28,7 +28,7 @@ bool parse_arguments(CLI::App &app, const int argc, const char *const *const arg
   }
   catch (const CLI::ParseError &error)
   {
-    throw dem::ConfigError(std::string(error.what()) + "; see '" + app.get_name() + " --help'");
+    throw ConfigError(std::string(error.what()) + "; see '" + app.get_name() + " --help'");
   }
 }
 
@@ -37,15 +37,15 @@ void make_cache(const std::filesystem::path &folder)
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw dem::ConfigError("--cache '" + folder.string() + "' cannot be made: " + error.message() +
-                           "; name a folder that you may write to");
+    throw ConfigError("--cache '" + folder.string() + "' cannot be made: " + error.message() +
+                      "; name a folder that you may write to");
 }
 
 void write_figures(const std::filesystem::path &json, const std::function<nlohmann::json()> &measure)
 {
-  std::unique_ptr<dem::WholeFile> file;
+  std::unique_ptr<WholeFile> file;
   if (!json.empty())
-    file = std::make_unique<dem::WholeFile>(json);
+    file = std::make_unique<WholeFile>(json);
   const nlohmann::json figures = measure();
   if (!file)
     return;
@@ -60,7 +60,7 @@ int run_program(const std::string &name, const std::function<void()> &run)
     run();
     return 0;
   }
-  catch (const dem::ConfigError &error)
+  catch (const ConfigError &error)
   {
     log_line(name + ": " + error.what());
     return 2;

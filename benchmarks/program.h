@@ -13,10 +13,10 @@ namespace bergamo::benchmark
 /// A line for who waits, beside the figures on the standard output.
 void log_line(const std::string &line);
 
-/// @return false if only help was asked for, which is printed then; throws dem::ConfigError for a mistake
+/// @return false if only help was asked for, which is printed then; throws ConfigError for a mistake
 bool parse_arguments(CLI::App &app, int argc, const char *const *argv);
 
-/// Makes the folder of --cache. Throws dem::ConfigError if it cannot be made.
+/// Makes the folder of --cache. Throws ConfigError if it cannot be made.
 void make_cache(const std::filesystem::path &folder);
 
 /// Runs `measure` and writes what it returns to a file, whole; no path, no file. The file is opened first, so that a

@@ -58,7 +58,7 @@ dem::Particles place_grains(const PackingRecipe &recipe, dem::Box &box)
     solid_volume += dem::volume(grain);
     grains.push_back(grain);
   }
-  box = {dem::Vec3::Zero(), dem::Vec3::Constant(std::cbrt(solid_volume / packing_fraction))};
+  box = {Vec3::Zero(), Vec3::Constant(std::cbrt(solid_volume / packing_fraction))};
   return dem::add_at_random(grains, box, sand_parameters().grain.density, generator());
 }
 
@@ -76,7 +76,7 @@ std::unique_ptr<dem::Simulation> contract(const PackingRecipe &recipe)
 {
   dem::Box box;
   dem::Particles particles = place_grains(recipe, box);
-  const dem::Vec3 centre = 0.5 * (box.low + box.high);
+  const Vec3 centre = 0.5 * (box.low + box.high);
   dem::SimulationParameters parameters = sand_parameters();
   parameters.between_grains().friction = 0.;
   parameters.set_damping(packing_damping);
@@ -180,7 +180,7 @@ void require_settled(const dem::Simulation &simulation, const PackingRecipe &rec
   message << describe("the packing of " + std::to_string(recipe.n_grains) + ' ' + name(recipe.kind), simulation)
           << ": it must have at least 4 contacts a grain, less than 0.01 and be within 5 % of " << recipe.pressure / 1e3
           << " kPa; choose more grains or another seed";
-  throw dem::RunError(message.str());
+  throw RunError(message.str());
 }
 
 } // namespace

@@ -9,14 +9,14 @@ std::unique_ptr<dem::Simulation> tile(const dem::Simulation &packing, const int 
 {
   const dem::Particles &cell = packing.particles;
   const dem::Box box = dem::box_between(packing.walls);
-  const dem::Vec3 edges = box.edges();
+  const Vec3 edges = box.edges();
   dem::Particles particles;
   for (int x = 0; x < n; ++x)
     for (int y = 0; y < n; ++y)
       for (int z = 0; z < n; ++z)
         for (std::size_t i = 0; i < cell.size(); ++i)
           particles.add(cell.parts.shape[i], packing.parameters().grain().density,
-                        cell.position[i] + dem::Vec3(x, y, z).cwiseProduct(edges), cell.orientation[i]);
+                        cell.position[i] + Vec3(x, y, z).cwiseProduct(edges), cell.orientation[i]);
   return std::make_unique<dem::Simulation>(packing.parameters(), std::move(particles),
                                            dem::box_walls({box.low, box.low + n * edges}));
 }

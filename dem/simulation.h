@@ -14,10 +14,14 @@
 #include <cstdint>
 #include <vector>
 
+namespace bergamo
+{
+class StateReader;
+}
+
 namespace bergamo::dem
 {
 
-class StateReader;
 
 /// What left a simulation or came into it.
 struct Exchange

@@ -1,9 +1,9 @@
 #include "fe_dealii/explicit_body.h"
 
+#include "dem/core/error.h"
 #include "fe_dealii/boundary/surface.h"
 #include "fe_dealii/element/cell_nodes.h"
 #include "fe_dealii/element/solid_elements.h"
-#include "fe_dealii/error.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
@@ -16,19 +16,6 @@
 
 namespace bergamo::fe
 {
-namespace
-{
-
-template <class... Parts>
-[[noreturn]] void reject(const Parts &...parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw ParameterError(message.str());
-}
-
-} // namespace
-
 void ExplicitBodyParameters::validate() const
 {
   if (degree != 1 && degree != 2)

@@ -32,7 +32,7 @@ struct ExplicitBodyParameters
   /// a body that stiffens later may need a shorter step again (stable_step()).
   double wanted_time_step = 0;
 
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   void validate() const;
 };
 
@@ -40,7 +40,7 @@ struct ExplicitBodyParameters
 class ExplicitBody : public MovingBody
 {
 public:
-  /// Copies the mesh. Throws ParameterError for bad parameters, an empty mesh, a mesh of anything but hexahedra,
+  /// Copies the mesh. Throws ConfigError for bad parameters, an empty mesh, a mesh of anything but hexahedra,
   /// hanging nodes, cells turned inside out or an initial stress that the material does not bear.
   ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const ExplicitBodyParameters &parameters);
   ExplicitBody(ExplicitBody &&) noexcept;
@@ -48,7 +48,7 @@ public:
 
   /// Share 1 − w of the continuum where particles carry the rest (Arlequin weight w, one per node, in [0, 1]):
   /// interpolated to the quadrature points, where it multiplies mass, internal force and gravity. Call before the first
-  /// step. Throws ParameterError for a wrong length, a weight outside [0, 1], a node left without mass (bound the
+  /// step. Throws ConfigError for a wrong length, a weight outside [0, 1], a node left without mass (bound the
   /// weights away from 1) or a material of large strain.
   void set_share(std::span<const double> nodal_weight);
 

@@ -1,7 +1,7 @@
 #include "fe_dealii/membrane_body.h"
 
+#include "dem/core/error.h"
 #include "fe_dealii/element/cell_nodes.h"
-#include "fe_dealii/error.h"
 #include "fe_dealii/material/elastic_parameters.h"
 
 #include <deal.II/dofs/dof_handler.h>
@@ -28,12 +28,12 @@ struct MembraneBody::Mesh
   explicit Mesh(const dealii::Triangulation<2, 3> &mesh) : element(dealii::FE_Q<2, 3>(1), 3), dof_handler(triangulation)
   {
     if (mesh.n_active_cells() == 0)
-      throw ParameterError("membrane: the mesh has no cells; fill the triangulation first");
+      throw ConfigError("membrane: the mesh has no cells; fill the triangulation first");
     if (!mesh.all_reference_cells_are_hyper_cube())
-      throw ParameterError("membrane: the mesh has cells that are no quadrilaterals; only quadrilaterals are "
-                           "supported");
+      throw ConfigError("membrane: the mesh has cells that are no quadrilaterals; only quadrilaterals are "
+                        "supported");
     if (mesh.has_hanging_nodes())
-      throw ParameterError("membrane: the mesh has hanging nodes; refine it uniformly");
+      throw ConfigError("membrane: the mesh has hanging nodes; refine it uniformly");
     triangulation.copy_triangulation(mesh);
     dof_handler.distribute_dofs(element);
   }
@@ -77,7 +77,7 @@ std::vector<unsigned int> MembraneBody::boundary_nodes(const unsigned int bounda
     message << "membrane: the mesh has no boundary " << boundary_id << "; it has";
     for (const auto id : dof_handler().get_triangulation().get_boundary_ids())
       message << ' ' << id;
-    throw ParameterError(message.str());
+    throw ConfigError(message.str());
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

@@ -25,7 +25,7 @@ struct MembraneBodyParameters
   std::array<double, 3> gravity{0, 0, 0}; ///< [m/s²]
   double damping = 0;                     ///< α of the force −α m v [1/s], >= 0
 
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   void validate() const;
 };
 
@@ -34,7 +34,7 @@ struct MembraneBodyParameters
 class MembraneBody : public MovingBody
 {
 public:
-  /// Copies the mesh, which may be open or closed. Throws ParameterError for bad parameters, an empty mesh, a mesh of
+  /// Copies the mesh, which may be open or closed. Throws ConfigError for bad parameters, an empty mesh, a mesh of
   /// anything but quadrilaterals, hanging nodes, degenerate cells or cells that are folded over.
   MembraneBody(const dealii::Triangulation<2, 3> &mesh, const MembraneBodyParameters &parameters);
   MembraneBody(MembraneBody &&) noexcept;

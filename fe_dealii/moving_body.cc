@@ -1,7 +1,8 @@
 #include "fe_dealii/moving_body.h"
 
+#include "dem/core/error.h"
+#include "dem/core/parallel.h"
 #include "fe_dealii/element/largest_eigenvalue.h"
-#include "fe_dealii/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,16 +17,8 @@ namespace
 // Sums over dofs are taken in blocks of this many nodes, then over the blocks in order: the same on any thread count.
 constexpr std::size_t block_nodes = 512;
 // Below this, waking the threads costs more than they save.
-constexpr std::size_t few_elements = 256;
+constexpr std::size_t few_elements = 256, few_nodes = 256;
 constexpr std::size_t block_elements = 32; // in one virtual call
-
-template <class... Parts>
-[[noreturn]] void reject(const Parts &...parts)
-{
-  std::ostringstream message;
-  (message << ... << parts);
-  throw ParameterError(message.str());
-}
 
 std::span<double> doubles_of(dealii::Vector<double> &vector)
 {
@@ -49,15 +42,11 @@ MovingBody::MovingBody(std::string name, std::vector<std::array<double, 3>> node
       node_position_(std::move(node_position)), elements_(std::move(elements))
 {
   const std::span<const unsigned int> nodes = elements_->nodes();
-  slot_head_.assign(n_nodes() + 1, 0);
-  for (const unsigned int node : nodes)
-    ++slot_head_[node + 1];
-  for (std::size_t node = 0; node < n_nodes(); ++node)
-    slot_head_[node + 1] += slot_head_[node];
-  slot_.resize(nodes.size());
-  auto next = slot_head_;
-  for (std::size_t place = 0; place < nodes.size(); ++place)
-    slot_[next[nodes[place]]++] = place;
+  slots_ = {n_nodes(), [&](const auto &put)
+            {
+              for (std::size_t place = 0; place < nodes.size(); ++place)
+                put(nodes[place], static_cast<unsigned int>(place));
+            }};
 
   const std::size_t n_dofs = 3 * n_nodes();
   for (dealii::Vector<double> *vector : {&displacement_, &velocity_, &internal_force_, &external_force_,
@@ -102,9 +91,12 @@ void MovingBody::scale_mass()
   constexpr double rounding = 1e-12;
   const double bearable = 4 / (wanted_time_step_ * wanted_time_step_);
   std::vector<double> factor(n_elements());
-#pragma omp parallel for schedule(static)
-  for (std::size_t e = 0; e < factor.size(); ++e)
-    factor[e] = std::max(1., largest_eigenvalue(*elements_, e, displacement_.begin()) / bearable * (1 + rounding));
+  parallel_for(factor.size(),
+               [&](const std::size_t e)
+               {
+                 const double eigenvalue = largest_eigenvalue(*elements_, e, displacement_.begin());
+                 factor[e] = std::max(1., eigenvalue / bearable * (1 + rounding));
+               });
   double true_mass = 0;
   std::vector<double> mass(elements_->nodes_per_element());
   for (std::size_t e = 0; e < factor.size(); ++e)
@@ -125,37 +117,42 @@ void MovingBody::scale_mass()
 
 void MovingBody::compute_internal_force()
 {
-  const std::size_t n_elements = this->n_elements(), n_nodes = this->n_nodes();
+  const std::size_t n_elements = this->n_elements();
   const std::size_t n_blocks = (n_elements + block_elements - 1) / block_elements;
   const double *const now = displacement_.begin();
   double *const before = displacement_of_stress_.begin();
   const std::span<const double> element_force = elements_->forces();
-  std::size_t inverted = n_elements; // the first one
-#pragma omp parallel if (n_elements >= few_elements)
-  {
-#pragma omp for schedule(static) reduction(min : inverted)
-    for (std::size_t block = 0; block < n_blocks; ++block)
-    {
-      const std::size_t begin = block * block_elements, end = std::min(n_elements, begin + block_elements);
-      inverted = std::min(inverted, elements_->compute_forces(begin, end, now, before).value_or(n_elements));
-    }
-    // Each node sums its elements in their order: no race, and the same bits whatever the threads.
-#pragma omp for schedule(static)
-    for (std::size_t node = 0; node < n_nodes; ++node)
-    {
-      double force[3] = {0, 0, 0};
-      for (std::size_t k = slot_head_[node]; k < slot_head_[node + 1]; ++k)
-        for (int i = 0; i < 3; ++i)
-          force[i] += element_force[3 * std::size_t(slot_[k]) + i];
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        internal_force_[3 * node + i] = force[i];
-        before[3 * node + i] = now[3 * node + i];
-      }
-    }
-  }
-  if (inverted < n_elements)
-    report_inversion(inverted);
+  Collected<std::size_t> inverted;
+  parallel_ranges(n_blocks, few_elements / 2 / block_elements,
+                  [&](const std::size_t part, const std::size_t first, const std::size_t last)
+                  {
+                    for (std::size_t block = first; block < last; ++block)
+                    {
+                      const std::size_t begin = block * block_elements;
+                      const std::size_t end = std::min(n_elements, begin + block_elements);
+                      if (const auto element = elements_->compute_forces(begin, end, now, before))
+                        inverted.of(part).push_back(*element);
+                    }
+                  });
+  // Each node sums its elements in their order: no race, and the same bits whatever the threads.
+  parallel_ranges(n_nodes(), few_nodes,
+                  [&](std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t node = begin; node < end; ++node)
+                    {
+                      double force[3] = {0, 0, 0};
+                      for (const unsigned int slot : slots_[node])
+                        for (int i = 0; i < 3; ++i)
+                          force[i] += element_force[3 * std::size_t(slot) + i];
+                      for (std::size_t i = 0; i < 3; ++i)
+                      {
+                        internal_force_[3 * node + i] = force[i];
+                        before[3 * node + i] = now[3 * node + i];
+                      }
+                    }
+                  });
+  if (const std::vector<std::size_t> all = inverted.all(); !all.empty())
+    report_inversion(all.front());
 }
 
 std::array<double, 3> MovingBody::present_centre(const std::size_t element) const
@@ -174,7 +171,7 @@ void MovingBody::report_inversion(const std::size_t element) const
   std::ostringstream message;
   message << name_ << ": element " << element << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
           << ") m has collapsed or turned inside out; choose a smaller time step, a finer mesh there or a smaller load";
-  throw AnalysisError(message.str());
+  throw RunError(message.str());
 }
 
 void MovingBody::kick(const double dt)
@@ -189,8 +186,7 @@ void MovingBody::kick(const double dt)
   };
   std::vector<Sums> sums(n_blocks);
   const dealii::Vector<double> &heavy_mass = this->heavy_mass();
-#pragma omp parallel for schedule(static) if (n_nodes >= few_elements)
-  for (std::size_t block = 0; block < n_blocks; ++block)
+  const auto kick_block = [&](const std::size_t block)
   {
     Sums local;
     const std::size_t end = std::min(n_nodes, (block + 1) * block_nodes);
@@ -228,7 +224,13 @@ void MovingBody::kick(const double dt)
         add(local.after, half_step_after * fresh);
       }
     sums[block] = local;
-  }
+  };
+  parallel_ranges(n_blocks, 1,
+                  [&](std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t block = begin; block < end; ++block)
+                      kick_block(block);
+                  });
 
   const auto accumulate = [](Work &total, const Work &part)
   {
@@ -267,10 +269,12 @@ void MovingBody::rest()
 
 void MovingBody::drift(const double dt)
 {
-  const std::size_t n_dofs = displacement_.size();
-#pragma omp parallel for schedule(static) if (n_dofs >= 3 * few_elements)
-  for (std::size_t dof = 0; dof < n_dofs; ++dof)
-    displacement_[dof] += dt * velocity_[dof];
+  parallel_ranges(displacement_.size(), 3 * few_nodes,
+                  [&](std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t dof = begin; dof < end; ++dof)
+                      displacement_[dof] += dt * velocity_[dof];
+                  });
 }
 
 MovingBody::Constraint MovingBody::prescribe_velocity(const unsigned int boundary_id, const unsigned int component,
@@ -287,14 +291,14 @@ MovingBody::Constraint MovingBody::prescribe_velocity(const std::span<const unsi
   for (const unsigned int node : nodes)
     if (node >= n_nodes())
       reject(name_, ": a velocity is prescribed at node ", node, ", but there are only ", n_nodes(), " nodes");
-  const Constraint constraint = constraint_velocity_.size();
+  const Constraint constraint(constraint_velocity_.size());
   auto &dofs = constraint_dofs_.emplace_back();
   for (const unsigned int node : nodes)
   {
     const std::size_t dof = 3 * std::size_t(node) + component;
     if (constraint_of_dof_[dof] >= 0)
       continue;
-    constraint_of_dof_[dof] = constraint;
+    constraint_of_dof_[dof] = static_cast<int>(constraint.place());
     dofs.push_back(dof);
   }
   constraint_velocity_.push_back(velocity);
@@ -304,7 +308,7 @@ MovingBody::Constraint MovingBody::prescribe_velocity(const std::span<const unsi
 double MovingBody::reaction(const Constraint constraint) const
 {
   double sum = 0;
-  for (const unsigned int dof : constraint_dofs_[constraint])
+  for (const unsigned int dof : constraint_dofs_[constraint.place()])
     sum += reaction_force_[dof];
   return sum;
 }

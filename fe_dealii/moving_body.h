@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dem/core/index.h"
+#include "dem/core/rows.h"
 #include "fe_dealii/body_energy.h"
 #include "fe_dealii/element/element_group.h"
 
@@ -23,7 +25,7 @@ struct MassForces
   std::array<double, 3> gravity{0, 0, 0}; ///< [m/s²]
   double damping = 0;                     ///< α of the force −α m v [1/s], >= 0
 
-  /// Throws ParameterError. @param body what the message begins with
+  /// Throws ConfigError. @param body what the message begins with
   void validate(const std::string &body) const;
 };
 
@@ -51,7 +53,7 @@ public:
   /// @{
 
   /// Internal forces [N] and stresses of the present displacement; the strain increment is that since the last call.
-  /// Throws AnalysisError, with its place, where an element has turned inside out.
+  /// Throws RunError, with its place, where an element has turned inside out.
   void compute_internal_force();
 
   /// v⁺ from v⁻ and the forces: m (v⁺ − v⁻)/dt = f_ext + weight − f_int − α m (v⁻ + v⁺)/2. The damping is centred: it
@@ -72,22 +74,22 @@ public:
   /// A dof belongs to the first constraint that names it; later ones skip it. So prescribe what matters most first.
   /// @{
 
-  using Constraint = std::size_t;
+  using Constraint = Index<struct ConstraintList>;
 
-  /// Prescribes one velocity component [m/s] (0, 1, 2 = x, y, z) on all nodes of a boundary. Throws ParameterError for
+  /// Prescribes one velocity component [m/s] (0, 1, 2 = x, y, z) on all nodes of a boundary. Throws ConfigError for
   /// a boundary id that the mesh lacks or a component above 2.
   Constraint prescribe_velocity(unsigned int boundary_id, unsigned int component, double velocity = 0);
 
-  /// The same for a list of nodes. Throws ParameterError for a node out of range.
+  /// The same for a list of nodes. Throws ConfigError for a node out of range.
   Constraint prescribe_velocity(std::span<const unsigned int> nodes, unsigned int component, double velocity = 0);
 
-  void set_velocity(Constraint constraint, double velocity) { constraint_velocity_[constraint] = velocity; }
+  void set_velocity(Constraint constraint, double velocity) { constraint_velocity_[constraint.place()] = velocity; }
 
-  double prescribed_velocity(Constraint constraint) const { return constraint_velocity_[constraint]; }
+  double prescribed_velocity(Constraint constraint) const { return constraint_velocity_[constraint.place()]; }
   /// The constraint of a dof, or nothing if it is free.
   std::optional<Constraint> constraint_of(std::size_t dof) const
   {
-    return constraint_of_dof_[dof] < 0 ? std::nullopt : std::optional<Constraint>(constraint_of_dof_[dof]);
+    return constraint_of_dof_[dof] < 0 ? std::nullopt : std::optional(Constraint(constraint_of_dof_[dof]));
   }
 
   /// Resultant force that the boundary exerts on the body in the constrained component, at the last kick [N].
@@ -116,7 +118,7 @@ public:
   const std::vector<std::array<double, 3>> &node_position() const { return node_position_; } ///< reference [m]
   /// Nodes of an element, in deal.II's order of the element's shape functions: the corners first.
   std::span<const unsigned int> element_nodes(const std::size_t element) const { return elements_->nodes(element); }
-  /// Nodes of a boundary, ascending; ParameterError where the mesh has no such boundary.
+  /// Nodes of a boundary, ascending; ConfigError where the mesh has no such boundary.
   virtual std::vector<unsigned int> boundary_nodes(unsigned int boundary_id) const = 0;
   const ElementGroup &elements() const { return *elements_; }
   ElementGroup &elements() { return *elements_; }
@@ -165,8 +167,7 @@ private:
   double wanted_time_step_;
   std::vector<std::array<double, 3>> node_position_;
   std::unique_ptr<ElementGroup> elements_;
-  std::vector<std::size_t> slot_head_; // slots of node i: slot_[slot_head_[i]] .. slot_[slot_head_[i + 1]]
-  std::vector<unsigned int> slot_;     // places of the node in elements_->nodes(), ascending
+  Rows<unsigned int> slots_; // places of each node in elements_->nodes(), ascending
 
   dealii::Vector<double> displacement_, velocity_, internal_force_, external_force_, reaction_force_, mass_;
   dealii::Vector<double> displacement_of_stress_; // where the stresses were computed last

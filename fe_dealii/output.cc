@@ -1,6 +1,6 @@
 #include "fe_dealii/output.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/material/principal.h"
 #include "fe_dealii/membrane_body.h"
@@ -34,8 +34,7 @@ void write_whole(const std::filesystem::path &path, const Write &write)
     {
       file.close();
       std::filesystem::remove(aside, error);
-      throw AnalysisError("cannot write " + path.string() +
-                          "; check that its folder exists, is writable and has space");
+      throw RunError("cannot write " + path.string() + "; check that its folder exists, is writable and has space");
     }
   }
   std::filesystem::rename(aside, path, error);
@@ -43,7 +42,7 @@ void write_whole(const std::filesystem::path &path, const Write &write)
   {
     const std::string reason = error.message();
     std::filesystem::remove(aside, error);
-    throw AnalysisError("cannot rename " + aside.string() + " to " + path.string() + ": " + reason);
+    throw RunError("cannot rename " + aside.string() + " to " + path.string() + ": " + reason);
   }
 }
 

@@ -1,7 +1,8 @@
 #include "fe_dealii/stable_step.h"
 
+#include "dem/core/error.h"
+#include "dem/core/parallel.h"
 #include "fe_dealii/element/largest_eigenvalue.h"
-#include "fe_dealii/error.h"
 #include "fe_dealii/moving_body.h"
 
 #include <algorithm>
@@ -15,9 +16,9 @@ namespace bergamo::fe
 StableStep stable_step(const MovingBody &body)
 {
   std::vector<double> eigenvalue(body.n_elements());
-#pragma omp parallel for schedule(static)
-  for (std::size_t e = 0; e < eigenvalue.size(); ++e)
-    eigenvalue[e] = largest_eigenvalue(body.elements(), e, body.displacement().begin()) / body.mass_factor(e);
+  parallel_for(
+      eigenvalue.size(), [&](const std::size_t e)
+      { eigenvalue[e] = largest_eigenvalue(body.elements(), e, body.displacement().begin()) / body.mass_factor(e); });
   const auto largest = std::max_element(eigenvalue.begin(), eigenvalue.end());
   return {2 / std::sqrt(*largest), *largest, std::size_t(largest - eigenvalue.begin())};
 }
@@ -32,7 +33,7 @@ void require_stable(const MovingBody &body, const double time_step)
   message << "continuum: the time step of " << time_step << " s is above the stable one of " << stable.time_step
           << " s that element " << stable.element << " at (" << place[0] << ", " << place[1] << ", " << place[2]
           << ") m sets; choose a smaller step, larger elements there, or mass scaling";
-  throw AnalysisError(message.str());
+  throw RunError(message.str());
 }
 
 } // namespace bergamo::fe

@@ -21,7 +21,7 @@ struct StableStep
 /// damping do not lower it. Pressures that follow a surface are not in it.
 StableStep stable_step(const MovingBody &body);
 
-/// Throws AnalysisError, with the stable step and the place of the element that sets it, where a time step [s] exceeds
+/// Throws RunError, with the stable step and the place of the element that sets it, where a time step [s] exceeds
 /// it at the present displacement. To be called before a run and, at large strain, now and then during it.
 void require_stable(const MovingBody &body, double time_step);
 

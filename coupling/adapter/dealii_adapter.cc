@@ -1,5 +1,7 @@
 #include "coupling/adapter/dealii_adapter.h"
 
+#include "dem/core/error.h"
+
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -9,7 +11,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 #include <string>
 
 namespace bergamo::coupling
@@ -24,12 +25,9 @@ struct CellBox
 {
   Cell cell;
   unsigned int element;
-  dem::Vec3 low, high;
+  Vec3 low, high;
 
-  bool may_hold(const dem::Vec3 &x) const
-  {
-    return (x.array() >= low.array()).all() && (x.array() <= high.array()).all();
-  }
+  bool may_hold(const Vec3 &x) const { return (x.array() >= low.array()).all() && (x.array() <= high.array()).all(); }
 };
 
 std::vector<CellBox> cell_boxes(const fe::ExplicitBody &body)
@@ -37,7 +35,7 @@ std::vector<CellBox> cell_boxes(const fe::ExplicitBody &body)
   std::vector<CellBox> boxes;
   for (const auto &cell : body.dof_handler().active_cell_iterators())
   {
-    CellBox box{cell, static_cast<unsigned int>(boxes.size()), dem::Vec3::Constant(1e300), dem::Vec3::Constant(-1e300)};
+    CellBox box{cell, static_cast<unsigned int>(boxes.size()), Vec3::Constant(1e300), Vec3::Constant(-1e300)};
     for (const unsigned int v : cell->vertex_indices())
       for (int d = 0; d < 3; ++d)
       {
@@ -50,7 +48,7 @@ std::vector<CellBox> cell_boxes(const fe::ExplicitBody &body)
 }
 
 /// Local coordinates in [0, 1]^3 of a point in a cell; false if it lies outside.
-bool find_in_cell(const Cell &cell, const dem::Vec3 &x, dealii::Point<3> &unit)
+bool find_in_cell(const Cell &cell, const Vec3 &x, dealii::Point<3> &unit)
 {
   try
   {
@@ -66,12 +64,12 @@ bool find_in_cell(const Cell &cell, const dem::Vec3 &x, dealii::Point<3> &unit)
 } // namespace
 
 Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::int64_t> id,
-                     const std::span<const dem::Vec3> position, const std::span<const double> volume)
+                     const std::span<const Vec3> position, const std::span<const double> volume)
 {
   if (body.elements().nodes_per_element() != 8)
-    throw std::invalid_argument("grains overlap a continuum with elements of " +
-                                std::to_string(body.elements().nodes_per_element()) +
-                                " nodes; choose elements of degree 1, with 8 nodes");
+    throw ConfigError("grains overlap a continuum with elements of " +
+                      std::to_string(body.elements().nodes_per_element()) +
+                      " nodes; choose elements of degree 1, with 8 nodes");
   Overlap overlap;
   std::map<unsigned int, int> local_node; // node of the mesh -> place in overlap.nodes
   std::map<unsigned int, Cell> coupled_cells;
@@ -109,8 +107,8 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
       break;
     }
   if (overlap.nodes.empty())
-    throw std::invalid_argument("grains and continuum do not overlap: no grain's centre lies in an element; let the "
-                                "elements reach into the grains by at least one layer");
+    throw ConfigError("grains and continuum do not overlap: no grain's centre lies in an element; let the "
+                      "elements reach into the grains by at least one layer");
 
   std::vector<Eigen::Triplet<double>> entries;
   dealii::FEValues<3> values(trilinear, dealii::QGauss<3>(2), dealii::update_values | dealii::update_JxW_values);

@@ -25,10 +25,10 @@ TwoScaleModel::TwoScaleModel(std::unique_ptr<dem::Simulation> grains, std::uniqu
 }
 
 void TwoScaleModel::join(const CouplingParameters &parameters, const std::span<const double> nodal_weight,
-                         const std::span<const dem::Vec3> reference_by_id)
+                         const std::span<const Vec3> reference_by_id)
 {
   dem::Particles &p = grains_->particles;
-  std::vector<dem::Vec3> reference(p.size());
+  std::vector<Vec3> reference(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)
     reference[i] = reference_by_id[p.id[i]];
   Overlap overlap = make_overlap(*body_, p.id, reference, p.volume);
@@ -49,7 +49,7 @@ void TwoScaleModel::join(const CouplingParameters &parameters, const std::span<c
   body_->set_share(nodal_weight);
 
   if (p.external_force.empty())
-    p.external_force.assign(p.size(), dem::Vec3::Zero());
+    p.external_force.assign(p.size(), Vec3::Zero());
   particle_displacement_.resize(overlap.n_particles());
   particle_force_.resize(overlap.n_particles());
   coupling_.emplace(std::move(overlap), parameters.projection, parameters.penalty);

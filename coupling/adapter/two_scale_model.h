@@ -39,9 +39,9 @@ public:
 
   /// Joins the models: nodal weights of the grains (one a node of the body, 1 where grains alone count) set the
   /// continuum's share and the grains' weights; the reference positions are those given, by id of the grain.
-  /// @throws std::invalid_argument where the overlap is empty or too coarse
+  /// @throws ConfigError where the overlap is empty or too coarse
   void join(const CouplingParameters &parameters, std::span<const double> nodal_weight,
-            std::span<const dem::Vec3> reference_by_id);
+            std::span<const Vec3> reference_by_id);
 
   void compute_forces(); ///< contacts, internal forces, coupling forces at the present step
   void kick();           ///< the body's velocities; from here to move() the energies of this step can be read

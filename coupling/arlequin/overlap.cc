@@ -1,9 +1,10 @@
 #include "coupling/arlequin/overlap.h"
 
+#include "dem/core/error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 #include <unordered_set>
 
 namespace bergamo::coupling
@@ -19,10 +20,7 @@ constexpr double least_reach = 1e-6;        ///< shape value from which a partic
 template <class... Parts>
 [[noreturn]] void fail(const Parts &...parts)
 {
-  std::ostringstream message;
-  message << "overlap of grains and elements: ";
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
+  reject("overlap of grains and elements: ", parts...);
 }
 
 std::string text(const Eigen::Vector3d &position)

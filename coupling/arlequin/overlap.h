@@ -32,7 +32,7 @@ struct Overlap
   std::size_t n_nodes() const { return nodes.size(); }
   std::size_t n_particles() const { return particle_id.size(); }
 
-  /// Throws std::invalid_argument, naming the particle or the position of the node and the remedy, unless sizes fit,
+  /// Throws ConfigError, naming the particle or the position of the node and the remedy, unless sizes fit,
   /// every particle's shape values lie in [0, 1] (linear elements), sum to 1 and give back its position, every node is
   /// reached by a particle, and the volume matrix is symmetric with positive row sums.
   void validate() const;

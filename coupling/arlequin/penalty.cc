@@ -1,10 +1,12 @@
 #include "coupling/arlequin/penalty.h"
 
+#include "dem/core/error.h"
+#include "dem/core/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
+#include <string>
 
 namespace bergamo::coupling
 {
@@ -17,10 +19,7 @@ constexpr int max_iterations = 20000;
 template <class... Parts>
 [[noreturn]] void fail(const Parts &...parts)
 {
-  std::ostringstream message;
-  message << "penalty coupling: ";
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
+  reject("penalty coupling: ", parts...);
 }
 
 /// Numbers in [-1, 1] that look random and are always the same (splitmix64).
@@ -71,14 +70,14 @@ PenaltyState PenaltyCoupling::compute(const std::span<const Eigen::Vector3d> par
   const auto &matrix = overlap_.volume_matrix;
   const int *row_start = matrix.outerIndexPtr(), *column = matrix.innerIndexPtr();
   const double *value = matrix.valuePtr();
-#pragma omp parallel for schedule(static) if (n_nodes >= 256)
-  for (std::size_t i = 0; i < n_nodes; ++i)
-  {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (int k = row_start[i]; k < row_start[i + 1]; ++k)
-      sum += value[k] * difference_[column[k]];
-    node_work_[i] = penalty_ * sum;
-  }
+  parallel_for(n_nodes,
+               [&](const std::size_t i)
+               {
+                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+                 for (int k = row_start[i]; k < row_start[i + 1]; ++k)
+                   sum += value[k] * difference_[column[k]];
+                 node_work_[i] = penalty_ * sum;
+               });
   PenaltyState state;
   for (std::size_t i = 0; i < n_nodes; ++i)
   {

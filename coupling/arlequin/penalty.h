@@ -33,14 +33,14 @@ struct CoupledMasses
 class PenaltyCoupling
 {
 public:
-  /// Penalty epsilon [Pa/m^2 = J/m^5] > 0. Throws std::invalid_argument for a bad overlap or penalty.
+  /// Penalty epsilon [Pa/m^2 = J/m^5] > 0. Throws ConfigError for a bad overlap or penalty.
   PenaltyCoupling(Overlap overlap, Projection kind, double penalty);
 
   const Overlap &overlap() const { return overlap_; }
   const CoarseProjection &projection() const { return projection_; }
 
   /// Displacements [m] of the coupled particles and of the whole FE mesh (3 * node + component) to the coupling forces
-  /// [N]: `particle_force` is overwritten, `fe_force` is added to. Throws std::invalid_argument for wrong sizes.
+  /// [N]: `particle_force` is overwritten, `fe_force` is added to. Throws ConfigError for wrong sizes.
   PenaltyState compute(std::span<const Eigen::Vector3d> particle_displacement, std::span<const double> fe_displacement,
                        std::span<Eigen::Vector3d> particle_force, std::span<double> fe_force);
 

@@ -1,8 +1,9 @@
 #include "coupling/arlequin/projection.h"
 
+#include "dem/core/error.h"
+#include "dem/core/parallel.h"
+
 #include <cassert>
-#include <sstream>
-#include <stdexcept>
 
 namespace bergamo::coupling
 {
@@ -13,41 +14,27 @@ namespace
 /// Least pivot over the diagonal entry of A: below, A counts as singular.
 constexpr double least_pivot = 1e-10;
 
-/// Loops shorter than this are not worth the start of the threads.
-constexpr std::size_t shortest_parallel_loop = 256;
-
-/// Calls body(i) for i in [0, n); each call writes only what belongs to i.
-template <class Body>
-void for_each(const std::size_t n, const Body &body)
-{
-#pragma omp parallel for schedule(static) if (n >= shortest_parallel_loop)
-  for (std::size_t i = 0; i < n; ++i)
-    body(i);
-}
-
 } // namespace
 
 CoarseProjection::CoarseProjection(const Overlap &overlap, const Projection kind)
-    : volume_(overlap.particle_volume), particle_offset_(overlap.shape_offset), particle_node_(overlap.shape_node),
-      particle_value_(overlap.shape_value), node_offset_(overlap.n_nodes() + 1, 0),
-      node_particle_(overlap.shape_node.size()), node_value_(overlap.shape_node.size()),
-      inverse_lumped_(overlap.n_nodes(), 0.)
+    : volume_(overlap.particle_volume), inverse_lumped_(overlap.n_nodes(), 0.)
 {
   overlap.validate();
 
-  for (const int node : particle_node_)
-    ++node_offset_[node + 1];
-  for (std::size_t node = 0; node < n_nodes(); ++node)
-    node_offset_[node + 1] += node_offset_[node];
-  std::vector<std::size_t> next(node_offset_.begin(), node_offset_.end() - 1);
-  for (std::size_t particle = 0; particle < n_particles(); ++particle)
-    for (std::size_t k = particle_offset_[particle]; k < particle_offset_[particle + 1]; ++k)
-    {
-      const int node = particle_node_[k];
-      node_particle_[next[node]] = static_cast<int>(particle);
-      node_value_[next[node]++] = particle_value_[k];
-      inverse_lumped_[node] += particle_value_[k] * volume_[particle];
-    }
+  const auto each_value = [&](const auto &visit) // visit(particle, node, value)
+  {
+    for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
+      for (std::size_t k = overlap.shape_offset[particle]; k < overlap.shape_offset[particle + 1]; ++k)
+        visit(static_cast<int>(particle), overlap.shape_node[k], overlap.shape_value[k]);
+  };
+  of_particle_ = {overlap.n_particles(), [&](const auto &put) {
+                    each_value([&](const int particle, const int node, const double n) { put(particle, {node, n}); });
+                  }};
+  of_node_ = {overlap.n_nodes(), [&](const auto &put) {
+                each_value([&](const int particle, const int node, const double n) { put(node, {particle, n}); });
+              }};
+  each_value([&](const int particle, const int node, const double n)
+             { inverse_lumped_[node] += n * volume_[particle]; });
   for (double &value : inverse_lumped_)
     value = 1. / value;
 
@@ -60,10 +47,9 @@ void CoarseProjection::factorize(const Overlap &overlap)
   const int n = static_cast<int>(n_nodes());
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t particle = 0; particle < n_particles(); ++particle)
-    for (std::size_t k = particle_offset_[particle]; k < particle_offset_[particle + 1]; ++k)
-      for (std::size_t l = particle_offset_[particle]; l < particle_offset_[particle + 1]; ++l)
-        entries.emplace_back(particle_node_[k], particle_node_[l],
-                             particle_value_[k] * volume_[particle] * particle_value_[l]);
+    for (const ShapeValue &a : of_particle_[particle])
+      for (const ShapeValue &b : of_particle_[particle])
+        entries.emplace_back(a.at, b.at, a.value * volume_[particle] * b.value);
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
 
@@ -86,14 +72,9 @@ void CoarseProjection::factorize(const Overlap &overlap)
     }
   }
   if (!(least > least_pivot))
-  {
-    std::ostringstream message;
-    message << "consistent projection: too few particles around the node at ("
-            << overlap.node_position[weakest].transpose()
-            << ") m to tell its motion from its neighbours'; take larger elements, smaller grains or the lumped "
-               "projection";
-    throw std::invalid_argument(message.str());
-  }
+    reject(
+        "consistent projection: too few particles around the node at (", overlap.node_position[weakest].transpose(),
+        ") m to tell its motion from its neighbours'; take larger elements, smaller grains or the lumped projection");
   solver_ = std::move(solver);
 }
 
@@ -101,7 +82,7 @@ void CoarseProjection::apply_inverse(const Vectors node_values) const
 {
   if (!solver_)
   {
-    for_each(n_nodes(), [&](const std::size_t node) { node_values[node] *= inverse_lumped_[node]; });
+    parallel_for(n_nodes(), [&](const std::size_t node) { node_values[node] *= inverse_lumped_[node]; });
     return;
   }
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
@@ -114,14 +95,14 @@ void CoarseProjection::apply_inverse(const Vectors node_values) const
 void CoarseProjection::project(const ConstVectors particle_values, const Vectors node_values) const
 {
   assert(particle_values.size() == n_particles() && node_values.size() == n_nodes());
-  for_each(n_nodes(),
-           [&](const std::size_t node)
-           {
-             Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-             for (std::size_t k = node_offset_[node]; k < node_offset_[node + 1]; ++k)
-               sum += node_value_[k] * volume_[node_particle_[k]] * particle_values[node_particle_[k]];
-             node_values[node] = sum;
-           });
+  parallel_for(n_nodes(),
+               [&](const std::size_t node)
+               {
+                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+                 for (const ShapeValue &n : of_node_[node])
+                   sum += n.value * volume_[n.at] * particle_values[n.at];
+                 node_values[node] = sum;
+               });
   apply_inverse(node_values);
 }
 
@@ -130,33 +111,33 @@ void CoarseProjection::transpose_project(const ConstVectors node_values, const V
   std::vector<Eigen::Vector3d> solved(node_values.begin(), node_values.end());
   apply_inverse(solved);
   interpolate(solved, particle_values);
-  for_each(n_particles(), [&](const std::size_t particle) { particle_values[particle] *= volume_[particle]; });
+  parallel_for(n_particles(), [&](const std::size_t particle) { particle_values[particle] *= volume_[particle]; });
 }
 
 void CoarseProjection::interpolate(const ConstVectors node_values, const Vectors particle_values) const
 {
   assert(particle_values.size() == n_particles() && node_values.size() == n_nodes());
-  for_each(n_particles(),
-           [&](const std::size_t particle)
-           {
-             Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-             for (std::size_t k = particle_offset_[particle]; k < particle_offset_[particle + 1]; ++k)
-               sum += particle_value_[k] * node_values[particle_node_[k]];
-             particle_values[particle] = sum;
-           });
+  parallel_for(n_particles(),
+               [&](const std::size_t particle)
+               {
+                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+                 for (const ShapeValue &n : of_particle_[particle])
+                   sum += n.value * node_values[n.at];
+                 particle_values[particle] = sum;
+               });
 }
 
 void CoarseProjection::collect(const ConstVectors particle_values, const Vectors node_values) const
 {
   assert(particle_values.size() == n_particles() && node_values.size() == n_nodes());
-  for_each(n_nodes(),
-           [&](const std::size_t node)
-           {
-             Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-             for (std::size_t k = node_offset_[node]; k < node_offset_[node + 1]; ++k)
-               sum += node_value_[k] * particle_values[node_particle_[k]];
-             node_values[node] = sum;
-           });
+  parallel_for(n_nodes(),
+               [&](const std::size_t node)
+               {
+                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+                 for (const ShapeValue &n : of_node_[node])
+                   sum += n.value * particle_values[n.at];
+                 node_values[node] = sum;
+               });
 }
 
 } // namespace bergamo::coupling

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/arlequin/overlap.h"
+#include "dem/core/rows.h"
 
 #include <Eigen/SparseCholesky>
 #include <memory>
@@ -34,11 +35,11 @@ public:
   using Vectors = std::span<Eigen::Vector3d>;
   using ConstVectors = std::span<const Eigen::Vector3d>;
 
-  /// Throws std::invalid_argument where Overlap::validate() does, and for a singular A (consistent; too few particles
+  /// Throws ConfigError where Overlap::validate() does, and for a singular A (consistent; too few particles
   /// around a node, whose position the message names).
   CoarseProjection(const Overlap &overlap, Projection kind);
 
-  std::size_t n_nodes() const { return node_offset_.size() - 1; }
+  std::size_t n_nodes() const { return of_node_.size(); }
   std::size_t n_particles() const { return volume_.size(); }
 
   /// Pi: particle values to node values.
@@ -58,13 +59,12 @@ private:
 
   std::vector<double> volume_;
 
-  // The shape function values in both directions.
-  std::vector<std::size_t> particle_offset_;
-  std::vector<int> particle_node_;
-  std::vector<double> particle_value_;
-  std::vector<std::size_t> node_offset_;
-  std::vector<int> node_particle_;
-  std::vector<double> node_value_;
+  struct ShapeValue
+  {
+    int at; // a particle or a node
+    double value;
+  };
+  Rows<ShapeValue> of_particle_, of_node_; // at the nodes of each particle, at the particles of each node
 
   std::vector<double> inverse_lumped_;   ///< 1 / A*_II [1/m^3]
   std::unique_ptr<const Solver> solver_; ///< of A; none for the lumped kind

@@ -1,7 +1,8 @@
 #include "coupling/arlequin/weight.h"
 
-#include <sstream>
-#include <stdexcept>
+#include "dem/core/error.h"
+
+#include <algorithm>
 
 namespace bergamo::coupling
 {
@@ -9,25 +10,14 @@ namespace bergamo::coupling
 std::vector<double> particle_weights(const Overlap &overlap, const std::span<const double> node_weight,
                                      const double min_weight)
 {
-  std::ostringstream message;
   if (!(min_weight > 0. && min_weight <= 1.))
-  {
-    message << "least weight " << min_weight << " of the coupled models: take a value in (0, 1], e.g. "
-            << default_min_weight;
-    throw std::invalid_argument(message.str());
-  }
+    reject("least weight ", min_weight, " of the coupled models: take a value in (0, 1], e.g. ", default_min_weight);
   if (node_weight.size() != overlap.n_nodes())
-  {
-    message << node_weight.size() << " weights for " << overlap.n_nodes() << " coupling nodes: give one a node";
-    throw std::invalid_argument(message.str());
-  }
+    reject(node_weight.size(), " weights for ", overlap.n_nodes(), " coupling nodes: give one a node");
   for (std::size_t node = 0; node < node_weight.size(); ++node)
     if (!(node_weight[node] >= 0. && node_weight[node] <= 1.))
-    {
-      message << "weight " << node_weight[node] << " of the coupling node at "
-              << overlap.node_position[node].transpose() << " m: take values in [0, 1]";
-      throw std::invalid_argument(message.str());
-    }
+      reject("weight ", node_weight[node], " of the coupling node at ", overlap.node_position[node].transpose(),
+             " m: take values in [0, 1]");
 
   std::vector<double> weight(overlap.n_particles());
   for (std::size_t particle = 0; particle < weight.size(); ++particle)

@@ -17,7 +17,7 @@ namespace bergamo::coupling
 inline constexpr double default_min_weight = 0.05;
 
 /// Weight of each coupled particle in [min_weight, 1] from the weights of the coupling nodes, w_alpha = sum N_I w_I.
-/// Throws std::invalid_argument for nodal weights outside [0, 1], of wrong number, or min_weight outside (0, 1].
+/// Throws ConfigError for nodal weights outside [0, 1], of wrong number, or min_weight outside (0, 1].
 std::vector<double> particle_weights(const Overlap &overlap, std::span<const double> node_weight,
                                      double min_weight = default_min_weight);
 

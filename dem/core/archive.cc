@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 namespace
@@ -438,4 +438,4 @@ void ArchiveReader::read_into(const std::string &name, const std::span<std::int6
   state_->read_array_into(name, values);
 }
 
-} // namespace bergamo::dem
+} // namespace bergamo

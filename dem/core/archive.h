@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 // Archives: named arrays, numbers and texts in one HDF5 file, kept bit for bit. Names are HDF5 paths
@@ -82,4 +82,4 @@ private:
   std::unique_ptr<State> state_;
 };
 
-} // namespace bergamo::dem
+} // namespace bergamo

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// The user's mistake: the message names the thing, its value, what is allowed and the remedy. Thrown before work
@@ -22,14 +22,20 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// Throws ConfigError "<name> is <value>: it must be <allowed>" unless the condition is met.
-inline void require(const bool is_met, const std::string_view name, const double value, const std::string_view allowed)
+/// Throws ConfigError with the parts as << writes them, one after the other.
+template <class... Parts>
+[[noreturn]] void reject(const Parts &...parts)
 {
-  if (is_met)
-    return;
   std::ostringstream message;
-  message << name << " is " << value << ": it must be " << allowed;
+  (message << ... << parts);
   throw ConfigError(message.str());
 }
 
-} // namespace bergamo::dem
+/// Throws ConfigError "<name> is <value>: it must be <allowed>" unless the condition is met.
+inline void require(const bool is_met, const std::string_view name, const double value, const std::string_view allowed)
+{
+  if (!is_met)
+    reject(name, " is ", value, ": it must be ", allowed);
+}
+
+} // namespace bergamo

@@ -8,13 +8,22 @@
 #include <experimental/simd>
 #include <sleef.h>
 
-/// SIMD packs of doubles and the few functions that a kernel templated over Real (double or Pack) needs.
+/// SIMD packs of doubles and the few functions that a kernel templated over Real (double or a pack) needs.
 ///
-/// The width follows the instruction set of the build: 8 with AVX-512, 4 with AVX, 2 with SSE2. Every operation works
-/// lane by lane, so what a lane holds never depends on its neighbours: results do not depend on how work was batched.
+/// A Pack is as wide as the instruction set of the build, 8 with AVX-512, 4 with AVX, 2 with SSE2; Lanes<n> has n lanes
+/// in any build. Every operation works lane by lane, so what a lane holds never depends on its neighbours: results do
+/// not depend on how work was batched.
 /// This file and pack_vectors.h are the only ones that know the vector library.
-namespace bergamo::dem
+namespace bergamo
 {
+
+/// A pack of n doubles, in as few registers as hold it; with the width of the build's registers it is a Pack.
+template <int n>
+using Lanes = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, n>>;
+template <class Abi>
+using PackOf = std::experimental::simd<double, Abi>;
+template <class Abi>
+using MaskOfPack = std::experimental::simd_mask<double, Abi>;
 
 using Pack = std::experimental::native_simd<double>;
 inline constexpr int pack_width = static_cast<int>(Pack::size());
@@ -43,7 +52,8 @@ BERGAMO_INLINE bool any(const bool mask)
 {
   return mask;
 }
-BERGAMO_INLINE bool any(const Pack::mask_type &mask)
+template <class Abi>
+BERGAMO_INLINE bool any(const MaskOfPack<Abi> &mask)
 {
   return std::experimental::any_of(mask);
 }
@@ -52,7 +62,8 @@ BERGAMO_INLINE double select(const bool mask, const double yes, const double no)
 {
   return mask ? yes : no;
 }
-BERGAMO_INLINE Pack select(const Pack::mask_type &mask, const Pack &yes, Pack no)
+template <class Abi>
+BERGAMO_INLINE PackOf<Abi> select(const MaskOfPack<Abi> &mask, const PackOf<Abi> &yes, PackOf<Abi> no)
 {
   where(mask, no) = yes;
   return no;
@@ -69,7 +80,8 @@ BERGAMO_INLINE Pack abs(const Pack &x)
 {
   return std::experimental::abs(x);
 }
-BERGAMO_INLINE Pack sqrt(const Pack &x)
+template <class Abi>
+BERGAMO_INLINE PackOf<Abi> sqrt(const PackOf<Abi> &x)
 {
   return std::experimental::sqrt(x);
 }
@@ -204,10 +216,52 @@ BERGAMO_INLINE double map(const double x, Function &&f)
 {
   return f(x);
 }
-template <class Function>
-BERGAMO_INLINE Pack map(const Pack &x, Function &&f)
+template <class Abi, class Function>
+BERGAMO_INLINE PackOf<Abi> map(const PackOf<Abi> &x, Function &&f)
 {
-  return Pack([&](auto lane) { return f(x[lane]); });
+  return PackOf<Abi>([&](auto lane) { return f(x[lane]); });
+}
+
+/// Of the C library in every lane: a pack gives the bits that its lanes give alone.
+template <class Real>
+Real library_log(const Real &x)
+{
+  return map(x, [](const double lane) { return std::log(lane); });
+}
+template <class Real>
+Real library_exp(const Real &x)
+{
+  return map(x, [](const double lane) { return std::exp(lane); });
+}
+/// x^exponent for x > 0.
+template <class Real>
+Real library_pow(const Real &x, const double exponent)
+{
+  return map(x, [exponent](const double lane) { return std::pow(lane, exponent); });
+}
+
+/// Sum over the lanes, always in the same order: neighbours first.
+template <class Abi>
+BERGAMO_INLINE double sum(const PackOf<Abi> &x)
+{
+  constexpr std::size_t n = PackOf<Abi>::size();
+  static_assert(n == 2 || n == 4 || n == 8);
+  if constexpr (n == 2)
+    return x[0] + x[1];
+  else if constexpr (n == 4)
+    return (x[0] + x[1]) + (x[2] + x[3]);
+  else
+    return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
+}
+
+/// Least of the lanes; one that is a NaN does not count, unless it is the first.
+template <class Abi>
+BERGAMO_INLINE double least(const PackOf<Abi> &x)
+{
+  double result = x[0];
+  for (std::size_t lane = 1; lane < x.size(); ++lane)
+    result = x[lane] < result ? x[lane] : result;
+  return result;
 }
 
 } // namespace math
@@ -216,16 +270,16 @@ BERGAMO_INLINE Pack map(const Pack &x, Function &&f)
 template <class Real>
 inline constexpr int width = std::is_same_v<Real, double> ? 1 : pack_width;
 
-} // namespace bergamo::dem
+} // namespace bergamo
 
 namespace Eigen
 {
 template <>
-struct NumTraits<bergamo::dem::Pack> : GenericNumTraits<double>
+struct NumTraits<bergamo::Pack> : GenericNumTraits<double>
 {
-  using Real = bergamo::dem::Pack;
-  using NonInteger = bergamo::dem::Pack;
-  using Literal = bergamo::dem::Pack;
-  using Nested = bergamo::dem::Pack;
+  using Real = bergamo::Pack;
+  using NonInteger = bergamo::Pack;
+  using Literal = bergamo::Pack;
+  using Nested = bergamo::Pack;
 };
 } // namespace Eigen

@@ -5,7 +5,7 @@
 /// Vectors in memory into packs and back. With AVX-512 a transposition in registers takes a third of the instructions
 /// of moving number by number, and a touching contact moves six vectors in and three out at every step: the only
 /// intrinsics of the program.
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Three components and one unused: one register of four.
@@ -84,4 +84,4 @@ BERGAMO_INLINE void scatter_vectors(const Vector3<Real> &v, const Target &target
 
 } // namespace math
 
-} // namespace bergamo::dem
+} // namespace bergamo

@@ -9,7 +9,7 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Tells ThreadSanitizer of the barriers at both ends of a parallel region, which it does not see in GCC's OpenMP
@@ -155,4 +155,4 @@ private:
   std::vector<std::vector<T>> by_part;
 };
 
-} // namespace bergamo::dem
+} // namespace bergamo

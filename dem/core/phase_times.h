@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Wall-clock time spent in the phases of a step since the start [s].
@@ -36,4 +36,4 @@ private:
   Clock::time_point last = Clock::now();
 };
 
-} // namespace bergamo::dem
+} // namespace bergamo

@@ -2,7 +2,7 @@
 
 #include "dem/core/types.h"
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Matrix of a unit quaternion (x, y, z, w): body to global.
@@ -39,4 +39,4 @@ Vector3<Real> turn_back(const Matrix3<Real> &r, const Vector3<Real> &v)
           r(0, 2) * v[0] + r(1, 2) * v[1] + r(2, 2) * v[2]};
 }
 
-} // namespace bergamo::dem
+} // namespace bergamo

@@ -22,7 +22,7 @@
 ///     if constexpr (Visit::is_reading) // what follows from the state is made anew
 ///       ...
 ///   }
-namespace bergamo::dem
+namespace bergamo
 {
 namespace detail
 {
@@ -209,4 +209,4 @@ private:
   std::uint64_t hash = 14695981039346656037u;
 };
 
-} // namespace bergamo::dem
+} // namespace bergamo

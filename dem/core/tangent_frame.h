@@ -3,7 +3,7 @@
 #include "dem/core/pack.h"
 #include "dem/core/types.h"
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Two unit columns t1, t2 that complete a unit vector n to a right-handed frame (t1, t2, n).
@@ -28,4 +28,4 @@ TangentFrameOf<Real> tangent_frame(const Vector3<Real> &n)
   return frame;
 }
 
-} // namespace bergamo::dem
+} // namespace bergamo

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Real is double or a SIMD pack of doubles (dem/core/pack.h).
@@ -16,4 +16,4 @@ using Vec3 = Vector3<double>;
 using Mat3 = Matrix3<double>;
 using Quaternion = Eigen::Quaterniond; ///< unit, turns body vectors into global ones
 
-} // namespace bergamo::dem
+} // namespace bergamo

@@ -1,42 +1,15 @@
 #include "dem/core/whole_file.h"
 
 #include "dem/core/error.h"
+#include "dem/core/file_error.h"
 
 #include <cerrno>
 #include <fcntl.h>
-#include <string>
 #include <system_error>
 #include <unistd.h>
 
-namespace bergamo::dem
+namespace bergamo
 {
-
-namespace
-{
-
-std::string remedy(const int reason)
-{
-  switch (reason)
-  {
-  case ENOSPC:
-  case EDQUOT:
-  case EFBIG:
-    return "free some space, raise the limit on file sizes or choose another output folder";
-  case EACCES:
-  case EPERM:
-  case EROFS:
-    return "choose an output folder that you may write to";
-  case ENOENT:
-  case ENOTDIR:
-    return "create the folder first or choose another one";
-  case EISDIR:
-    return "choose a name that is no folder";
-  default:
-    return "look after the disk or choose another output folder";
-  }
-}
-
-} // namespace
 
 WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)), partial_(path_)
 {
@@ -95,8 +68,14 @@ void WholeFile::commit()
 
 void WholeFile::fail(const int reason) const
 {
-  throw RunError("cannot write " + path_.string() + ": " + std::system_category().message(reason) + "; " +
-                 remedy(reason) + ". A file of that name from before is unchanged.");
+  throw RunError(file_error("write", path_, reason) + ". A file of that name from before is unchanged.");
 }
 
-} // namespace bergamo::dem
+void write_whole_file(const std::filesystem::path &path, const std::string_view text)
+{
+  WholeFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+} // namespace bergamo

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// A file that appears whole or not at all: bytes go to `path` + ".partial" and take the name `path` on commit().
@@ -36,4 +36,7 @@ private:
   int descriptor_ = -1;
 };
 
-} // namespace bergamo::dem
+/// Writes a whole file at once; errors as above.
+void write_whole_file(const std::filesystem::path &path, std::string_view text);
+
+} // namespace bergamo

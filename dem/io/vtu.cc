@@ -3,7 +3,7 @@
 #include "dem/core/error.h"
 #include "dem/core/parallel.h"
 #include "dem/core/whole_file.h"
-#include "dem/io/xml.h"
+#include "dem/core/xml.h"
 
 #include <algorithm>
 #include <cstdint>

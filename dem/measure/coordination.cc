@@ -1,5 +1,6 @@
 #include "dem/measure/coordination.h"
 
+#include "dem/core/rows.h"
 namespace bergamo::dem
 {
 namespace
@@ -20,29 +21,18 @@ std::vector<std::int32_t> count_contacts(const std::size_t n_grains, const std::
   return count;
 }
 
-/// Grains that touch grain i: other[row[i]] .. other[row[i + 1]].
-struct Neighbours
+/// Grains that touch each grain.
+Rows<std::int32_t> neighbours_of_grains(const std::size_t n_grains, const std::span<const TouchingContact> pairs)
 {
-  std::vector<std::int32_t> row, other;
-
-  Neighbours(const std::size_t n_grains, const std::span<const TouchingContact> pairs)
-      : row(n_grains + 1, 0), other(2 * pairs.size())
-  {
-    for (const TouchingContact &contact : pairs)
-    {
-      ++row[contact.first + 1];
-      ++row[contact.second + 1];
-    }
-    for (std::size_t i = 0; i < n_grains; ++i)
-      row[i + 1] += row[i];
-    std::vector<std::int32_t> next(row.begin(), row.end() - 1);
-    for (const TouchingContact &contact : pairs)
-    {
-      other[next[contact.first]++] = contact.second;
-      other[next[contact.second]++] = contact.first;
-    }
-  }
-};
+  return {n_grains, [&](const auto &put)
+          {
+            for (const TouchingContact &contact : pairs)
+            {
+              put(contact.first, contact.second);
+              put(contact.second, contact.first);
+            }
+          }};
+}
 
 /// Sum over some grains and their number.
 struct Mean
@@ -64,7 +54,7 @@ std::vector<bool> find_rattlers(const Particles &particles, const std::span<cons
 {
   const std::size_t n = particles.size();
   std::vector<std::int32_t> count = count_contacts(n, pairs, walls);
-  const Neighbours neighbours(n, pairs);
+  const Rows<std::int32_t> neighbours = neighbours_of_grains(n, pairs);
   std::vector<bool> is_rattler(n, false);
   std::vector<std::int32_t> removed;
   const auto remove_if_loose = [&](const std::int32_t i)
@@ -80,10 +70,10 @@ std::vector<bool> find_rattlers(const Particles &particles, const std::span<cons
   {
     const std::int32_t i = removed.back();
     removed.pop_back();
-    for (std::int32_t k = neighbours.row[i]; k < neighbours.row[i + 1]; ++k)
+    for (const std::int32_t neighbour : neighbours[i])
     {
-      --count[neighbours.other[k]];
-      remove_if_loose(neighbours.other[k]);
+      --count[neighbour];
+      remove_if_loose(neighbour);
     }
   }
   return is_rattler;

@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 #include "dem/core/parallel.h"
+#include "dem/core/rows.h"
 #include "dem/packing/gap_search.h"
 #include "dem/packing/grain_grid.h"
 #include "dem/packing/grain_move.h"
@@ -137,22 +138,17 @@ private:
                     });
     pairs = found.all();
     first_of.assign(n + 1, 0);
-    std::vector<std::int64_t> count(n + 1, 0);
     for (const GrainGap &pair : pairs)
-    {
       ++first_of[pair.first + 1];
-      ++count[pair.first + 1];
-      ++count[pair.second + 1];
-    }
     std::partial_sum(first_of.begin(), first_of.end(), first_of.begin());
-    std::partial_sum(count.begin(), count.end(), count.begin());
-    row = count;
-    of_grain.resize(row[n]);
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-    {
-      of_grain[count[pairs[k].first]++] = static_cast<std::int64_t>(k);
-      of_grain[count[pairs[k].second]++] = static_cast<std::int64_t>(k);
-    }
+    of_grain = {n, [&](const auto &put)
+                {
+                  for (std::size_t k = 0; k < pairs.size(); ++k)
+                  {
+                    put(pairs[k].first, static_cast<std::int64_t>(k));
+                    put(pairs[k].second, static_cast<std::int64_t>(k));
+                  }
+                }};
     path.assign(n, 0.);
   }
 
@@ -197,9 +193,9 @@ private:
   /// The planes a grain must stay below. @return false if one of its neighbours may not be separated from it
   bool find_planes(const std::size_t i, std::vector<TangentPlane> &planes) const
   {
-    for (std::int64_t k = row[i]; k < row[i + 1]; ++k)
+    for (const std::int64_t k : of_grain[i])
     {
-      const GrainGap &pair = pairs[of_grain[k]];
+      const GrainGap &pair = pairs[k];
       if (!is_near(pair))
         continue;
       if (pair.width <= 0.)
@@ -270,8 +266,8 @@ private:
   std::vector<double> sphere_motion;  // of the bounding sphere [m]
   std::vector<double> path;           // of the bounding sphere since the list was made [m]
   std::vector<GrainGap> pairs;
-  std::vector<std::int64_t> first_of;      // pairs[first_of[i]] .. are those whose first grain is i
-  std::vector<std::int64_t> row, of_grain; // of_grain[row[i]] .. are the pairs of grain i
+  std::vector<std::int64_t> first_of; // pairs[first_of[i]] .. are those whose first grain is i
+  Rows<std::int64_t> of_grain;        // pairs of each grain
   TighteningStep now;
   Tightening result;
 };

@@ -14,8 +14,6 @@ namespace bergamo::driver
 namespace
 {
 
-using dem::ConfigError;
-
 void add_options(CLI::App &app, CommandLine &command_line)
 {
   app.add_option("file.prm", command_line.parameter_files,

@@ -14,8 +14,6 @@ namespace bergamo::driver
 namespace
 {
 
-using dem::ConfigError;
-
 std::vector<std::string> fields_of(std::string line)
 {
   line.erase(std::remove(line.begin(), line.end(), '\r'), line.end());

@@ -1,5 +1,6 @@
 #include "drivers/common/driver_main.h"
 
+#include "dem/core/error.h"
 #include "drivers/common/interrupt.h"
 
 #include <deal.II/base/exceptions.h>
@@ -33,7 +34,7 @@ int guarded(const std::function<int()> &job)
       return report("cannot write to standard output", run_failed);
     return status;
   }
-  catch (const std::invalid_argument &error)
+  catch (const ConfigError &error)
   {
     return report(error.what(), user_mistake);
   }

@@ -1,7 +1,8 @@
 #include "drivers/common/history.h"
 
 #include "dem/core/error.h"
-#include "drivers/common/atomic_file.h"
+#include "dem/core/file_error.h"
+#include "dem/core/whole_file.h"
 #include "drivers/common/number_text.h"
 
 #include <fcntl.h>
@@ -18,9 +19,6 @@ namespace bergamo::driver
 
 namespace
 {
-
-using dem::ConfigError;
-using dem::RunError;
 
 std::string header_of(const std::vector<std::string> &columns)
 {
@@ -82,7 +80,7 @@ History::History(std::filesystem::path path, std::vector<std::string> columns)
     : path(std::move(path)), columns(std::move(columns))
 {
   check_columns(this->columns);
-  write_atomically(this->path, header_of(this->columns));
+  write_whole_file(this->path, header_of(this->columns));
   open();
 }
 
@@ -95,7 +93,7 @@ History::History(Existing, std::filesystem::path path, std::vector<std::string> 
 History History::continued(std::filesystem::path path, std::vector<std::string> columns, const double last_time)
 {
   check_columns(columns);
-  write_atomically(path, kept_text(path, columns, last_time));
+  write_whole_file(path, kept_text(path, columns, last_time));
   return {Existing(), std::move(path), std::move(columns)};
 }
 

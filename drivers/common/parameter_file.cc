@@ -1,7 +1,7 @@
 #include "drivers/common/parameter_file.h"
 
 #include "dem/core/error.h"
-#include "drivers/common/atomic_file.h"
+#include "dem/core/whole_file.h"
 #include "drivers/common/nearest_name.h"
 #include "drivers/common/number_text.h"
 #include "drivers/common/parameter_scan.h"
@@ -18,8 +18,6 @@ namespace bergamo::driver
 
 namespace
 {
-
-using dem::ConfigError;
 
 struct Entry
 {
@@ -252,7 +250,7 @@ std::string ParameterFile::resolved_text() const
 
 void ParameterFile::write_resolved(const std::filesystem::path &file) const
 {
-  write_atomically(file, resolved_text());
+  write_whole_file(file, resolved_text());
 }
 
 } // namespace bergamo::driver

@@ -14,8 +14,6 @@ namespace bergamo::driver
 namespace
 {
 
-using dem::ConfigError;
-
 struct OpenSection
 {
   std::string name;

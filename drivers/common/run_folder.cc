@@ -1,7 +1,7 @@
 #include "drivers/common/run_folder.h"
 
 #include "dem/core/error.h"
-#include "drivers/common/atomic_file.h"
+#include "dem/core/file_error.h"
 #include "drivers/common/command_line.h"
 
 #include <fcntl.h>
@@ -19,8 +19,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-using dem::ConfigError;
-using dem::RunError;
 
 const char *const previous_run = "previous_run";
 

@@ -1,6 +1,6 @@
 #include "drivers/common/summary.h"
 
-#include "drivers/common/atomic_file.h"
+#include "dem/core/whole_file.h"
 #include "drivers/common/number_text.h"
 
 #include <nlohmann/json.hpp>
@@ -89,7 +89,7 @@ std::string Summary::json() const
 
 void Summary::write(const std::filesystem::path &path) const
 {
-  write_atomically(path, json());
+  write_whole_file(path, json());
 }
 
 std::string Summary::table() const

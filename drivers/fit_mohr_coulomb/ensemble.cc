@@ -15,8 +15,6 @@ namespace bergamo::driver
 namespace
 {
 
-using dem::ConfigError;
-
 constexpr double pressure_tolerance = 0.05; // of the mean lateral pressure during the shear
 constexpr double start_tolerance = 1e-4;    // axial strain of the shear's first row
 

@@ -14,7 +14,6 @@ namespace bergamo::driver
 namespace
 {
 
-using dem::ConfigError;
 using Fits = std::vector<SampleFit>;
 
 Statistic over(const Fits &fits, const std::function<double(const SampleFit &)> &figure)

@@ -12,8 +12,6 @@ namespace bergamo::driver
 namespace
 {
 
-using dem::ConfigError;
-
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr std::size_t least_rows = 3;
 constexpr double least_span = 0.8; // of a window
@@ -120,7 +118,6 @@ void check_signs(const SampleFit &fit)
 
 void FitWindows::validate() const
 {
-  using dem::require;
   require(elastic_strain > 0 && elastic_strain < 1, "Elasticity/axial strain", elastic_strain, "in (0, 1)");
   require(peak_average >= 0 && peak_average < 1, "Strength/averaged strain", peak_average, "in [0, 1)");
   require(dilation_from >= 0 && dilation_from < 1, "Dilation/from", dilation_from, "in [0, 1)");

@@ -1,4 +1,4 @@
-#include "drivers/common/atomic_file.h"
+#include "dem/core/whole_file.h"
 #include "drivers/common/driver_main.h"
 #include "drivers/common/report_run.h"
 #include "drivers/common/run_folder.h"
@@ -37,10 +37,10 @@ int job(const CommandLine &command_line)
 
   folder.open();
   file.write_resolved(folder.parameters());
-  write_atomically(folder.file("fit_mohr_coulomb.json"), fit_json(ensemble, fit, parameters));
-  write_atomically(folder.file("continuum.prm"), continuum_text(fit, parameters.ensemble));
-  write_atomically(folder.file("curves_grains.csv"), curves.grains);
-  write_atomically(folder.file("curves_continuum.csv"), curves.continuum);
+  bergamo::write_whole_file(folder.file("fit_mohr_coulomb.json"), fit_json(ensemble, fit, parameters));
+  bergamo::write_whole_file(folder.file("continuum.prm"), continuum_text(fit, parameters.ensemble));
+  bergamo::write_whole_file(folder.file("curves_grains.csv"), curves.grains);
+  bergamo::write_whole_file(folder.file("curves_continuum.csv"), curves.continuum);
 
   Summary summary;
   summary.set("wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), "s");

@@ -42,8 +42,8 @@ Step hold_pressure(const fe::MohrCoulomb &material, const fe::Stress &old, const
     earlier_residual = residual;
     lateral -= residual / (slope > 0 ? slope : elastic_modulus);
   }
-  throw dem::RunError("no lateral strain holds the pressure of " + std::to_string(pressure) +
-                      " Pa on the continuum; check the fitted parameters");
+  throw RunError("no lateral strain holds the pressure of " + std::to_string(pressure) +
+                 " Pa on the continuum; check the fitted parameters");
 }
 
 } // namespace

@@ -44,8 +44,7 @@ std::vector<double> distribution_row(const double time, const std::int64_t stage
   const auto add = [&](const std::vector<double> &values) { row.insert(row.end(), values.begin(), values.end()); };
   add(dem::histogram(dem::relative_normal_forces(contacts), force_bins).density);
   add(dem::histogram(dem::mobilised_friction(contacts, friction), friction_bins).density);
-  const dem::DirectionDistribution directions =
-      dem::direction_distribution(contacts, dem::Vec3::UnitZ(), direction_bins);
+  const dem::DirectionDistribution directions = dem::direction_distribution(contacts, Vec3::UnitZ(), direction_bins);
   add(directions.density);
   add(directions.normal_force);
   return row;

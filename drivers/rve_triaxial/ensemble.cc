@@ -1,8 +1,8 @@
 #include "drivers/rve_triaxial/ensemble.h"
 
-#include "dem/core/error.h"
 #include "dem/core/archive.h"
-#include "drivers/common/atomic_file.h"
+#include "dem/core/error.h"
+#include "dem/core/whole_file.h"
 #include "drivers/common/csv_table.h"
 #include "drivers/common/interrupt.h"
 #include "drivers/common/number_text.h"
@@ -58,10 +58,10 @@ Ensemble::Ensemble(const RveParameters &p, std::string text, RunFolder &run_fold
   }
   if (!is_restart)
     return;
-  const dem::ArchiveReader archive(folder.snapshot(), snapshot_kind);
+  const ArchiveReader archive(folder.snapshot(), snapshot_kind);
   if (archive.read_text("parameters") != parameter_text)
-    throw dem::ConfigError("the run in " + folder.path().string() +
-                           " has other parameters; restart with its parameters.prm, or start anew in another folder");
+    throw ConfigError("the run in " + folder.path().string() +
+                      " has other parameters; restart with its parameters.prm, or start anew in another folder");
   for (const auto &sample : samples)
     sample->is_finished = read_figures(*sample);
 }
@@ -89,7 +89,7 @@ bool Ensemble::read_figures(Sample &sample) const
 
 void Ensemble::write_figures(const Sample &sample) const
 {
-  write_atomically(folder_of(sample) / "figures.csv", table(SampleFigures::names(), {sample.figures.values()}));
+  write_whole_file(folder_of(sample) / "figures.csv", table(SampleFigures::names(), {sample.figures.values()}));
 }
 
 void Ensemble::write_table() const
@@ -107,7 +107,7 @@ void Ensemble::write_table() const
     const std::vector<double> values = sample->figures.values();
     rows.back().insert(rows.back().end(), values.begin(), values.end());
   }
-  write_atomically(folder.file("ensemble.csv"), table(names, rows));
+  write_whole_file(folder.file("ensemble.csv"), table(names, rows));
 }
 
 std::vector<Ensemble::Sample *> Ensemble::unfinished()
@@ -142,8 +142,8 @@ bool Ensemble::run(const bool quiet)
   folder.open();
   if (!is_restart)
   {
-    write_atomically(folder.parameters(), parameter_text);
-    dem::ArchiveWriter archive(folder.snapshot(), snapshot_kind);
+    write_whole_file(folder.parameters(), parameter_text);
+    ArchiveWriter archive(folder.snapshot(), snapshot_kind);
     archive.write("parameters", parameter_text);
     archive.commit();
   }
@@ -209,7 +209,7 @@ bool Ensemble::run(const bool quiet)
     if (!sample->failure.empty())
       failures += "\n  sample " + std::to_string(sample->settings.number) + ": " + sample->failure;
   if (!failures.empty())
-    throw dem::RunError("some samples failed; the others are kept, and --restart tries these again:" + failures);
+    throw RunError("some samples failed; the others are kept, and --restart tries these again:" + failures);
   return unfinished().empty();
 }
 

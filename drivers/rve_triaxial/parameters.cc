@@ -141,7 +141,7 @@ void RveParameters::take_stages()
 
 void RveParameters::validate() const
 {
-  const auto fail = [](const std::string &text) { throw dem::ConfigError(text); };
+  const auto fail = [](const std::string &text) { throw ConfigError(text); };
   simulation.validate();
   if (size_kind == SizeKind::gaussian)
     gaussian.validate();
@@ -182,9 +182,9 @@ void RveParameters::require_room(const SampleSettings &sample) const
   const double shrinking = std::cbrt(std::min(1., packing_solid_fraction / densest));
   const double least = 2. * (2. * largest + simulation.verlet_distance * mean) / shrinking;
   if (grains.empty() || sample.edge < least)
-    throw dem::ConfigError("Ensemble/edges: a cell of " + std::to_string(sample.edge) +
-                           " m is too small for its grains, which would touch one another twice; it needs " +
-                           std::to_string(least) + " m at least: make it larger or the grains smaller");
+    throw ConfigError("Ensemble/edges: a cell of " + std::to_string(sample.edge) +
+                      " m is too small for its grains, which would touch one another twice; it needs " +
+                      std::to_string(least) + " m at least: make it larger or the grains smaller");
 }
 
 dem::Grading RveParameters::grading() const

@@ -1,7 +1,7 @@
 #include "drivers/rve_triaxial/sample.h"
 
 #include "dem/core/error.h"
-#include "dem/io/pvd.h"
+#include "dem/core/pvd.h"
 #include "dem/io/snapshot.h"
 #include "dem/io/vtu.h"
 #include "dem/measure/assembly_measures.h"
@@ -163,13 +163,13 @@ void SampleRun::begin()
   dem::PackingParameters packing;
   packing.solid_fraction = parameters.packing_solid_fraction;
   packing.density = parameters.simulation.grain().density;
-  const dem::Vec3 edges = dem::Vec3::Constant(settings.edge);
-  const auto space = dem::PackingSpace::periodic({dem::Vec3::Zero(), edges});
+  const Vec3 edges = Vec3::Constant(settings.edge);
+  const auto space = dem::PackingSpace::periodic({Vec3::Zero(), edges});
   dem::PackedGrains packed = dem::pack_grains(parameters.grading(), space, packing, settings.seed);
   if (!packed.report.has_reached_target)
-    throw dem::RunError("the geometric packing got stuck at a solid fraction of " +
-                        std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +
-                        ": choose a smaller Packing/solid fraction");
+    throw RunError("the geometric packing got stuck at a solid fraction of " +
+                   std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +
+                   ": choose a smaller Packing/solid fraction");
   packed.particles.cell = dem::PeriodicCell(edges);
   dem::SimulationParameters p = parameters.simulation;
   p.between_grains().friction = settings.generation_friction;
@@ -239,8 +239,8 @@ void SampleRun::record()
   if (s.n_steps == 0)
     first_balance = e.balance();
   const double residual = e.balance() - first_balance;
-  const dem::Vec3 strain = loading->strain(s);
-  const dem::Vec3 rates = s.particles.cell.rate.cwiseQuotient(s.particles.cell.edges);
+  const Vec3 strain = loading->strain(s);
+  const Vec3 rates = s.particles.cell.rate.cwiseQuotient(s.particles.cell.edges);
   const double overlap = dem::largest_relative_overlap(contacts, s.particles);
   const double fraction = solid_volume / volume;
   const double pressure = dem::pressure(m.stress);
@@ -258,7 +258,7 @@ void SampleRun::record()
                         strain[0],
                         strain[1],
                         strain[2],
-                        (strain + dem::Vec3::Ones()).prod() - 1.,
+                        (strain + Vec3::Ones()).prod() - 1.,
                         m.stress(0, 0),
                         m.stress(1, 1),
                         m.stress(2, 2),
@@ -288,8 +288,8 @@ void SampleRun::record()
                         residual};
   history->append(row);
   if (overlap > 0.2)
-    throw dem::RunError("the run diverged: grains overlap by " + std::to_string(overlap) + " of their radius at time " +
-                        std::to_string(s.time) + " s; choose a smaller time step or a smaller inertial number");
+    throw RunError("the run diverged: grains overlap by " + std::to_string(overlap) + " of their radius at time " +
+                   std::to_string(s.time) + " s; choose a smaller time step or a smaller inertial number");
   next_row = s.n_steps + steps_to_next_row();
 }
 
@@ -313,7 +313,7 @@ void SampleRun::record_distributions(const double time)
 void SampleRun::write_snapshot() const
 {
   const std::lock_guard guard(archives);
-  dem::ArchiveWriter archive(folder / "snapshot.h5", snapshot_kind);
+  ArchiveWriter archive(folder / "snapshot.h5", snapshot_kind);
   archive.write("parameters", parameter_text);
   archive.write("sample", settings.number);
   dem::write_simulation(archive, *simulation);
@@ -336,11 +336,11 @@ void SampleRun::write_snapshot() const
 void SampleRun::read_snapshot()
 {
   const std::lock_guard guard(archives);
-  const dem::ArchiveReader archive(folder / "snapshot.h5", snapshot_kind);
+  const ArchiveReader archive(folder / "snapshot.h5", snapshot_kind);
   if (archive.read_text("parameters") != parameter_text)
-    throw dem::ConfigError("the snapshot " + (folder / "snapshot.h5").string() +
-                           " belongs to other parameters; restart with those of the run, or start anew in another "
-                           "folder");
+    throw ConfigError("the snapshot " + (folder / "snapshot.h5").string() +
+                      " belongs to other parameters; restart with those of the run, or start anew in another "
+                      "folder");
   stage = archive.read_integer("stage");
   dem::SimulationParameters p = parameters.simulation;
   p.contact.overlap_tolerance = program.at(stage).overlap_tolerance;

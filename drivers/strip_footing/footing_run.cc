@@ -1,9 +1,9 @@
 #include "drivers/strip_footing/footing_run.h"
 
-#include "dem/core/error.h"
 #include "dem/core/archive.h"
-#include "dem/io/pvd.h"
-#include "drivers/common/atomic_file.h"
+#include "dem/core/error.h"
+#include "dem/core/pvd.h"
+#include "dem/core/whole_file.h"
 #include "drivers/common/interrupt.h"
 #include "fe_dealii/output.h"
 
@@ -48,11 +48,11 @@ FootingRun::FootingRun(const FootingParameters &p, const CommandLine &command_li
 {
   if (!is_restart)
     return;
-  const dem::ArchiveReader archive(folder.snapshot(), kind);
+  const ArchiveReader archive(folder.snapshot(), kind);
   if (archive.read_text("parameters") != parameter_text)
-    throw dem::ConfigError("the snapshot " + folder.snapshot().string() +
-                           " belongs to other parameters; restart with those of the run (" +
-                           folder.parameters().string() + "), or start anew in another folder");
+    throw ConfigError("the snapshot " + folder.snapshot().string() +
+                      " belongs to other parameters; restart with those of the run (" + folder.parameters().string() +
+                      "), or start anew in another folder");
   state.step = archive.read_integer("step");
   state.largest_residual = archive.read_double("largest_residual");
   state.bearing_sum = archive.read_double("bearing_sum");
@@ -64,7 +64,7 @@ FootingRun::FootingRun(const FootingParameters &p, const CommandLine &command_li
 
 void FootingRun::write_snapshot()
 {
-  dem::ArchiveWriter archive(folder.snapshot(), kind);
+  ArchiveWriter archive(folder.snapshot(), kind);
   archive.write("parameters", parameter_text);
   archive.write("step", state.step);
   archive.write("largest_residual", state.largest_residual);
@@ -80,7 +80,7 @@ bool FootingRun::run()
 {
   folder.open();
   if (!is_restart)
-    write_atomically(folder.parameters(), parameter_text);
+    write_whole_file(folder.parameters(), parameter_text);
   const double dt = model.time_step();
   History history = state.step > 0 ? History::continued(folder.history(), columns, (state.step - 0.5) * dt)
                                    : History(folder.history(), columns);
@@ -129,8 +129,8 @@ void FootingRun::sample(const double time, History &history)
 {
   const fe::ExplicitBody &body = model.body();
   if (!body.is_finite())
-    throw dem::RunError("the run diverged: the ground is not finite at time " + std::to_string(time) +
-                        " s; choose a smaller Output/step share");
+    throw RunError("the run diverged: the ground is not finite at time " + std::to_string(time) +
+                   " s; choose a smaller Output/step share");
   const fe::BodyEnergy e = body.energy();
   state.largest_residual = std::max(state.largest_residual, std::abs(e.residual()));
   const double row[] = {time,
@@ -154,7 +154,7 @@ void FootingRun::write_picture(const double time)
   for (std::size_t k = 0; k < state.picture_times.size(); ++k)
     frames.emplace_back(state.picture_times[k], picture_name(k));
   fe::write_vtu(model.body(), folder.file(frames.back().second));
-  dem::write_pvd(folder.file("continuum.pvd"), frames);
+  write_pvd(folder.file("continuum.pvd"), frames);
 }
 
 Summary FootingRun::summary() const

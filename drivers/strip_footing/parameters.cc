@@ -4,8 +4,6 @@
 #include "drivers/common/continuum_parameters.h"
 #include "drivers/strip_footing/bearing_capacity.h"
 
-#include <sstream>
-
 namespace bergamo::driver
 {
 
@@ -55,22 +53,16 @@ void FootingParameters::declare(ParameterFile &file)
 void FootingParameters::validate() const
 {
   continuum.validate();
-  const auto fail = [](const auto &...parts)
-  {
-    std::ostringstream message;
-    (message << ... << parts);
-    throw dem::ConfigError(message.str());
-  };
   if (ground_width < width)
-    fail(
+    reject(
         "Ground/width is ", ground_width, " m beside a footing of ", width,
         " m (Footing/width): the ground has to reach at least from the axis to half a width beyond the footing's edge");
   if (ground_depth < element_size())
-    fail("Ground/depth is ", ground_depth, " m, less than an element of ", element_size(),
-         " m; choose more elements under half the footing or deeper ground");
+    reject("Ground/depth is ", ground_depth, " m, less than an element of ", element_size(),
+           " m; choose more elements under half the footing or deeper ground");
   if (settlement > 0.2 * width)
-    fail("Footing/settlement is ", settlement, " m: strains are small up to about a fifth of Footing/width, ",
-         0.2 * width, " m");
+    reject("Footing/settlement is ", settlement, " m: strains are small up to about a fifth of Footing/width, ",
+           0.2 * width, " m");
 }
 
 double FootingParameters::limit_pressure() const

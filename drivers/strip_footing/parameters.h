@@ -36,7 +36,7 @@ struct FootingParameters
   /// Binds every parameter to its name in the parameter file.
   void declare(ParameterFile &file);
 
-  /// Throws ConfigError (or fe::ParameterError) for values that do not go together, before any work.
+  /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
 
   /// Edge of an element [m]. The settlement falls from that of the last node held to nothing over the element beside

@@ -14,12 +14,12 @@ PackingStage begin_packing(const TriaxialParameters &parameters)
 {
   std::mt19937_64 generator(parameters.seed);
   const double layer = parameters.element_size();
-  const dem::Vec3 edges(parameters.edge, parameters.edge, parameters.grain_layers() * layer);
+  const Vec3 edges(parameters.edge, parameters.edge, parameters.grain_layers() * layer);
   const std::vector<dem::Superquadric> shapes =
       dem::draw_grains(parameters.distribution, parameters.expected_solid_fraction * edges.prod(), generator);
 
   const double widening = std::cbrt(parameters.expected_solid_fraction / parameters.initial_solid_fraction);
-  const dem::Box box{dem::Vec3::Zero(), std::max(widening, 1.) * edges};
+  const dem::Box box{Vec3::Zero(), std::max(widening, 1.) * edges};
   dem::Particles particles = dem::add_at_random(shapes, box, parameters.simulation.grain().density, generator());
   return {std::make_unique<dem::Simulation>(parameters.packing_simulation(), std::move(particles), dem::box_walls(box)),
           dem::Compression(parameters.compression)};

@@ -16,7 +16,7 @@ struct PackingStage
   dem::Compression compression;
 };
 
-/// Draws and places the grains. @throws dem::ConfigError where they do not fit
+/// Draws and places the grains. @throws ConfigError where they do not fit
 PackingStage begin_packing(const TriaxialParameters &parameters);
 
 /// What the packing has come to.

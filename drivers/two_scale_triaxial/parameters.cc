@@ -91,7 +91,7 @@ void TriaxialParameters::validate() const
   packing_simulation().validate();
   compression.validate();
   program.validate();
-  const auto fail = [](const std::string &text) { throw dem::ConfigError(text); };
+  const auto fail = [](const std::string &text) { throw ConfigError(text); };
 
   if (kind == ModelKind::two_scale)
   {
@@ -118,7 +118,7 @@ void TriaxialParameters::validate() const
       fail("Packing/initial solid fraction is " + std::to_string(initial_solid_fraction) +
            ": grains cannot be placed at random above about 0.3; 0.2 is safe");
     // Two of the smallest grains as spheres at an overlap of 1e-5 radii: no packing under load is softer.
-    dem::Superquadric smallest{dem::Vec3::Constant(distribution.smallest_half_axis), 1., 1.};
+    dem::Superquadric smallest{Vec3::Constant(distribution.smallest_half_axis), 1., 1.};
     const double mass = simulation.grain().density * dem::volume(smallest);
     const double radius = distribution.smallest_half_axis;
     const double modulus = 0.5 * simulation.grain().young_modulus / (1. - std::pow(simulation.grain().poisson_ratio, 2));

@@ -55,7 +55,7 @@ struct TriaxialParameters
   /// Binds every parameter to its name in the parameter file.
   void declare(ParameterFile &file);
 
-  /// Throws ConfigError (or fe::ParameterError) for values that do not go together, before any work.
+  /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
 
   /// The grains' parameters while they are packed.

@@ -13,7 +13,7 @@ namespace
 
 constexpr const char *kind = "two-scale triaxial test";
 
-std::span<const double> as_doubles(const std::vector<dem::Vec3> &values)
+std::span<const double> as_doubles(const std::vector<Vec3> &values)
 {
   return {values.empty() ? nullptr : values.front().data(), 3 * values.size()};
 }
@@ -30,7 +30,7 @@ std::string first_difference(const std::string &stored, const std::string &prese
   return "one file is longer";
 }
 
-void write_common(dem::ArchiveWriter &archive, const Stage stage, const std::string &parameters)
+void write_common(ArchiveWriter &archive, const Stage stage, const std::string &parameters)
 {
   archive.write("stage", static_cast<std::int64_t>(stage));
   archive.write("parameters", parameters);
@@ -41,7 +41,7 @@ void write_common(dem::ArchiveWriter &archive, const Stage stage, const std::str
 void write_packing(const std::filesystem::path &path, const std::string &parameters, const dem::Simulation &grains,
                    const dem::Compression &compression)
 {
-  dem::ArchiveWriter archive(path, kind);
+  ArchiveWriter archive(path, kind);
   write_common(archive, Stage::packing, parameters);
   dem::write_simulation(archive, grains);
   archive.write("compression/n_checks_passed", compression.n_checks_passed);
@@ -52,7 +52,7 @@ void write_packing(const std::filesystem::path &path, const std::string &paramet
 void write_loading(const std::filesystem::path &path, const std::string &parameters, Specimen &specimen,
                    const LoadingState &state)
 {
-  dem::ArchiveWriter archive(path, kind);
+  ArchiveWriter archive(path, kind);
   write_common(archive, Stage::loading, parameters);
   if (const dem::Simulation *grains = specimen.model.grains())
     dem::write_simulation(archive, *grains);
@@ -77,9 +77,9 @@ SnapshotReader::SnapshotReader(const std::filesystem::path &path, const std::str
 {
   const std::string stored = archive.read_text("parameters");
   if (stored != parameters)
-    throw dem::ConfigError("the snapshot " + path.string() + " belongs to other parameters (" +
-                           first_difference(stored, parameters) +
-                           "); restart with those of the run, or start anew in another folder");
+    throw ConfigError("the snapshot " + path.string() + " belongs to other parameters (" +
+                      first_difference(stored, parameters) +
+                      "); restart with those of the run, or start anew in another folder");
 }
 
 std::unique_ptr<dem::Simulation> SnapshotReader::grains(const dem::SimulationParameters &parameters) const

@@ -17,7 +17,7 @@ struct LoadingState
 {
   std::int64_t step = 0;                                ///< steps done in this stage
   dem::Box box;                                         ///< of the grains before the loading
-  std::vector<dem::Vec3> reference_by_id;               ///< the grains' places then
+  std::vector<Vec3> reference_by_id;                    ///< the grains' places then
   double first_balance = 0.;                            ///< energy balance of the first sample [J]
   double largest_residual = 0.;                         ///< over the work done so far
   double smallest_stable_step = 0.;                     ///< [s]; 0 before the first estimate
@@ -40,7 +40,7 @@ void write_packing(const std::filesystem::path &path, const std::string &paramet
 void write_loading(const std::filesystem::path &path, const std::string &parameters, Specimen &specimen,
                    const LoadingState &state);
 
-/// A snapshot opened for reading. Throws dem::RunError for a damaged or foreign file, dem::ConfigError where the
+/// A snapshot opened for reading. Throws RunError for a damaged or foreign file, ConfigError where the
 /// parameters are others than those of the run that wrote it.
 class SnapshotReader
 {
@@ -54,7 +54,7 @@ public:
   void read_body(fe::ExplicitBody &body) const;
 
 private:
-  dem::ArchiveReader archive;
+  ArchiveReader archive;
 };
 /// @}
 

@@ -48,7 +48,7 @@ dem::Box whole_cube(const TriaxialParameters &parameters, dem::Box box)
 } // namespace
 
 Specimen::Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const dem::Box &box,
-                   const std::vector<dem::Vec3> &reference_by_id)
+                   const std::vector<Vec3> &reference_by_id)
     : model(std::move(grains), make_body(parameters, whole_cube(parameters, box)), parameters.simulation.time_step),
       cube(whole_cube(parameters, box)), edges(cube.edges()), current_edges(edges),
       step(parameters.simulation.time_step)
@@ -73,8 +73,7 @@ Specimen::Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Si
   }
 }
 
-void Specimen::join(const TriaxialParameters &parameters, const std::vector<dem::Vec3> &reference_by_id,
-                    const double layer)
+void Specimen::join(const TriaxialParameters &parameters, const std::vector<Vec3> &reference_by_id, const double layer)
 {
   // A restarted run finds its floor removed already.
   if (model.grains()->walls.size() == 6)
@@ -87,25 +86,25 @@ void Specimen::join(const TriaxialParameters &parameters, const std::vector<dem:
   model.join(parameters.coupling, weight, reference_by_id);
 }
 
-void Specimen::compute(const dem::Vec3 &strain_now, const dem::Vec3 &strain_next)
+void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
 {
-  current_edges = edges.cwiseProduct(dem::Vec3::Ones() + strain_now);
+  current_edges = edges.cwiseProduct(Vec3::Ones() + strain_now);
   model.compute_forces();
   for (int d = 0; d < 3; ++d)
   {
     const double velocity = edges[d] * (strain_next[d] - strain_now[d]) / step;
     const Face &face = faces[2 * d + 1];
     if (face.wall)
-      model.grains()->walls[*face.wall].velocity = velocity * dem::Vec3::Unit(d);
+      model.grains()->walls[*face.wall].velocity = velocity * Vec3::Unit(d);
     if (face.constraint)
       model.body()->set_velocity(*face.constraint, velocity);
   }
   model.kick();
 }
 
-dem::Vec3 Specimen::stress() const
+Vec3 Specimen::stress() const
 {
-  dem::Vec3 stress = dem::Vec3::Zero();
+  Vec3 stress = Vec3::Zero();
   for (int d = 0; d < 3; ++d)
   {
     const double area = current_edges.prod() / current_edges[d];

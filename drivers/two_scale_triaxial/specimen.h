@@ -34,19 +34,19 @@ public:
   /// @param grains the packing between six walls, or none for a continuum alone; @param box the grains' box before any
   /// loading (without grains: the cube); @param reference_by_id the grains' places at that time
   Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const dem::Box &box,
-           const std::vector<dem::Vec3> &reference_by_id);
+           const std::vector<Vec3> &reference_by_id);
 
   /// One time step towards the strains at its end; sample() may be called in between.
-  void compute(const dem::Vec3 &strain_now, const dem::Vec3 &strain_next);
+  void compute(const Vec3 &strain_now, const Vec3 &strain_next);
   void move() { model.move(); }
 
   /// Mean stresses of x, y, z from the forces on walls and boundary, tension positive [Pa] (Wellmann, fig. 6.5a).
-  dem::Vec3 stress() const;
+  Vec3 stress() const;
 
   SpecimenEnergy energy() const;
 
   double time_step() const { return step; }
-  dem::Vec3 reference_edges() const { return edges; } ///< [m]
+  Vec3 reference_edges() const { return edges; } ///< [m]
 
   coupling::TwoScaleModel model;
 
@@ -57,10 +57,10 @@ private:
     std::optional<fe::ExplicitBody::Constraint> constraint; ///< of the continuum
   };
 
-  void join(const TriaxialParameters &parameters, const std::vector<dem::Vec3> &reference_by_id, double layer);
+  void join(const TriaxialParameters &parameters, const std::vector<Vec3> &reference_by_id, double layer);
 
   dem::Box cube;
-  dem::Vec3 edges, current_edges;
+  Vec3 edges, current_edges;
   double step;
   std::array<Face, 6> faces; ///< x-, x+, y-, y+, z-, z+
 };

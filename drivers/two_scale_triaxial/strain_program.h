@@ -31,7 +31,7 @@ struct StrainProgram
   double end_time() const { return isotropic_time + shear_time; } ///< [s]
 
   /// Strains of x, y, z at a time [s].
-  dem::Vec3 strain(double time) const;
+  Vec3 strain(double time) const;
 
   /// 1 during the isotropic phase, 2 during the shear phase.
   int stage(double time) const { return time < isotropic_time ? 1 : 2; }

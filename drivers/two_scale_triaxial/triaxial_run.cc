@@ -1,9 +1,9 @@
 #include "drivers/two_scale_triaxial/triaxial_run.h"
 
 #include "dem/core/error.h"
-#include "dem/io/pvd.h"
+#include "dem/core/pvd.h"
+#include "dem/core/whole_file.h"
 #include "dem/io/vtu.h"
-#include "drivers/common/atomic_file.h"
 #include "drivers/common/interrupt.h"
 #include "fe_dealii/output.h"
 #include "fe_dealii/stable_step.h"
@@ -49,9 +49,9 @@ std::string picture_name(const char *model, const std::size_t number)
   return name;
 }
 
-std::vector<dem::Vec3> places_by_id(const dem::Simulation &grains)
+std::vector<Vec3> places_by_id(const dem::Simulation &grains)
 {
-  std::vector<dem::Vec3> places(grains.particles.size());
+  std::vector<Vec3> places(grains.particles.size());
   for (std::size_t i = 0; i < places.size(); ++i)
     places[grains.particles.id[i]] = grains.particles.position[i];
   return places;
@@ -98,7 +98,7 @@ TriaxialRun::TriaxialRun(const TriaxialParameters &p, const CommandLine &command
     packing.emplace(begin_packing(parameters));
   else
   {
-    state.box = {dem::Vec3::Zero(), dem::Vec3::Constant(parameters.edge)};
+    state.box = {Vec3::Zero(), Vec3::Constant(parameters.edge)};
     begin_loading();
   }
 }
@@ -107,7 +107,7 @@ bool TriaxialRun::run()
 {
   folder.open();
   if (!is_restart)
-    write_atomically(folder.parameters(), parameter_text);
+    write_whole_file(folder.parameters(), parameter_text);
   if (packing)
   {
     if (!run_packing())
@@ -177,7 +177,7 @@ void TriaxialRun::begin_loading()
       std::ostringstream message;
       message << "Loading/time step is " << specimen->time_step() << " s: it must stay below " << limit
               << " s, the stable step of the continuum";
-      throw dem::ConfigError(message.str());
+      throw ConfigError(message.str());
     }
   }
 }
@@ -213,7 +213,7 @@ bool TriaxialRun::run_loading()
         return false;
     }
     const double time = state.step * dt;
-    const dem::Vec3 strain = parameters.program.strain(time);
+    const Vec3 strain = parameters.program.strain(time);
     specimen->compute(strain, parameters.program.strain(time + dt));
     if (state.step % sample_interval == 0 || is_last)
       sample(time, strain, history);
@@ -229,15 +229,15 @@ bool TriaxialRun::run_loading()
   return true;
 }
 
-void TriaxialRun::sample(const double time, const dem::Vec3 &strain, History &history)
+void TriaxialRun::sample(const double time, const Vec3 &strain, History &history)
 {
   const dem::Simulation *grains = specimen->model.grains();
   const fe::ExplicitBody *body = specimen->model.body();
   if (grains)
     grains->check_finite();
   if (body && !body->is_finite())
-    throw dem::RunError("the run diverged: the continuum is not finite at time " + std::to_string(time) +
-                        " s; choose a smaller Loading/time step");
+    throw RunError("the run diverged: the continuum is not finite at time " + std::to_string(time) +
+                   " s; choose a smaller Loading/time step");
 
   last_stress = specimen->stress();
   last_energy = specimen->energy();
@@ -250,8 +250,8 @@ void TriaxialRun::sample(const double time, const dem::Vec3 &strain, History &hi
   largest_overlap = std::max(largest_overlap, overlap);
   largest_difference = specimen->model.penalty_state().largest_difference;
   if (overlap > 0.2)
-    throw dem::RunError("the run diverged: grains overlap by " + std::to_string(overlap) + " of their radius at time " +
-                        std::to_string(time) + " s; choose a smaller Loading/time step or smaller strains");
+    throw RunError("the run diverged: grains overlap by " + std::to_string(overlap) + " of their radius at time " +
+                   std::to_string(time) + " s; choose a smaller Loading/time step or smaller strains");
 
   const SpecimenEnergy &e = last_energy;
   const double coordination = grains ? coordination_number(*grains) : 0.;
@@ -293,16 +293,16 @@ void TriaxialRun::write_picture(const double time)
   if (const dem::Simulation *grains = specimen->model.grains())
   {
     std::vector<double> force;
-    for (const dem::Vec3 &f : grains->particles.force)
+    for (const Vec3 &f : grains->particles.force)
       force.push_back(f.norm());
     const dem::GrainField fields[] = {{"weight", grains->particles.weight}, {"resultant_force", force}};
     dem::write_grains_vtu(grains->particles, fields, folder.file(picture_name("grains", number)));
-    dem::write_pvd(folder.file("grains.pvd"), grain_frames);
+    write_pvd(folder.file("grains.pvd"), grain_frames);
   }
   if (const fe::ExplicitBody *body = specimen->model.body())
   {
     fe::write_vtu(*body, folder.file(picture_name("continuum", number)));
-    dem::write_pvd(folder.file("continuum.pvd"), continuum_frames);
+    write_pvd(folder.file("continuum.pvd"), continuum_frames);
   }
 }
 
@@ -344,7 +344,7 @@ Summary TriaxialRun::summary() const
     summary.set("packing_solid_fraction", state.solid_fraction);
     summary.set("packing_coordination_number", state.coordination_number);
   }
-  const dem::Vec3 edges = specimen->reference_edges();
+  const Vec3 edges = specimen->reference_edges();
   summary.set("cube_edges_m", std::vector<double>{edges[0], edges[1], edges[2]}, "m");
   for (int d = 0; d < 3; ++d)
     summary.set("stress_" + std::to_string(d + 1) + "_Pa", last_stress[d], "Pa");

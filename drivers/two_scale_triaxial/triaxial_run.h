@@ -36,7 +36,7 @@ private:
   bool run_packing();
   void begin_loading();
   bool run_loading();
-  void sample(double time, const dem::Vec3 &strain, History &history);
+  void sample(double time, const Vec3 &strain, History &history);
   void write_picture(double time);
   void watch_stable_step();
 
@@ -57,7 +57,7 @@ private:
   std::int64_t steps_here = 0; ///< done by this process
   double largest_overlap = 0., largest_work = 0.;
   SpecimenEnergy last_energy;
-  dem::Vec3 last_stress = dem::Vec3::Zero();
+  Vec3 last_stress = Vec3::Zero();
   double largest_difference = 0.; ///< between both models' displacements [m]
   bool has_warned = false;
 };

@@ -1,6 +1,6 @@
 #include "fe_dealii/boundary/surface.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
@@ -39,7 +39,7 @@ Surface boundary_surface(const dealii::DoFHandler<3, 3> &dof_handler, const unsi
     message << "continuum: the mesh has no boundary " << boundary_id << "; it has";
     for (const auto id : dof_handler.get_triangulation().get_boundary_ids())
       message << ' ' << id;
-    throw ParameterError(message.str());
+    throw ConfigError(message.str());
   }
   return surface;
 }
@@ -68,7 +68,7 @@ Surface membrane_surface(const dealii::DoFHandler<2, 3> &dof_handler)
       message << "membrane: cells " << other->second << " and " << cell->active_cell_index() << " at ("
               << cell->center() << ") m turn opposite sides to the same side of the membrane; order the nodes of all "
               << "cells alike, or put no pressure on a membrane that has one side only";
-      throw ParameterError(message.str());
+      throw ConfigError(message.str());
     }
   }
   return surface;

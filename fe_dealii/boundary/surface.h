@@ -29,12 +29,12 @@ struct Surface
   }
 };
 
-/// All faces of a boundary. Throws ParameterError where the mesh has no such boundary.
+/// All faces of a boundary. Throws ConfigError where the mesh has no such boundary.
 /// @param dof_handler of a body: FESystem(FE_Q(degree), 3), dofs 3*node + component
 Surface boundary_surface(const dealii::DoFHandler<3, 3> &dof_handler, unsigned int boundary_id);
 
 /// All cells of a mesh of membranes; their order of nodes and deal.II's direction flag say where the cross product
-/// points: out of the spheres of GridGenerator. Throws ParameterError where two neighbours disagree.
+/// points: out of the spheres of GridGenerator. Throws ConfigError where two neighbours disagree.
 /// @param dof_handler of a body: FESystem(FE_Q(1), 3), dofs 3*node + component
 Surface membrane_surface(const dealii::DoFHandler<2, 3> &dof_handler);
 

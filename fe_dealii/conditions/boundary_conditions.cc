@@ -1,6 +1,6 @@
 #include "fe_dealii/conditions/boundary_conditions.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 #include <sstream>
 #include <utility>
@@ -17,9 +17,9 @@ constexpr std::pair<const char *, ConditionKind> kinds[] = {{"displacement", Con
 
 [[noreturn]] void reject(const std::string &text, const std::string &reason)
 {
-  throw ParameterError("boundary condition '" + text + "': " + reason +
-                       "; write BOUNDARY displacement|velocity|traction x|y|z FUNCTION or BOUNDARY pressure FUNCTION, "
-                       "such as 5 displacement z -0.01*t");
+  throw ConfigError("boundary condition '" + text + "': " + reason +
+                    "; write BOUNDARY displacement|velocity|traction x|y|z FUNCTION or BOUNDARY pressure FUNCTION, "
+                    "such as 5 displacement z -0.01*t");
 }
 
 bool is_motion(const ConditionKind kind)
@@ -72,8 +72,8 @@ BoundaryConditions::BoundaryConditions(ExplicitBody &body, std::vector<BoundaryC
     Part part{std::move(condition), {}, {}};
     const BoundaryCondition &c = part.condition;
     if (c.component > 2)
-      throw ParameterError("boundary condition: component " + std::to_string(c.component) +
-                           " is not allowed; choose 0, 1 or 2 for x, y, z");
+      throw ConfigError("boundary condition: component " + std::to_string(c.component) +
+                        " is not allowed; choose 0, 1 or 2 for x, y, z");
     if (is_motion(c.kind))
       part.constraint = body.prescribe_velocity(c.boundary_id, c.component);
     else

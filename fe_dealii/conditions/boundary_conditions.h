@@ -30,7 +30,7 @@ struct BoundaryCondition
 };
 
 /// Reads "5 displacement z -0.01*min(t, 1)", "3 velocity x 0", "1 traction y 2e4*t", "4 pressure 1e5".
-/// Throws ParameterError.
+/// Throws ConfigError.
 BoundaryCondition parse_condition(const std::string &text);
 
 /// Moves and loads the boundaries of a body as prescribed over time. A dof belongs to the first condition that names
@@ -38,11 +38,11 @@ BoundaryCondition parse_condition(const std::string &text);
 class BoundaryConditions
 {
 public:
-  /// Throws ParameterError for a boundary that the mesh lacks or a component above 2.
+  /// Throws ConfigError for a boundary that the mesh lacks or a component above 2.
   BoundaryConditions(ExplicitBody &body, std::vector<BoundaryCondition> conditions);
 
   /// To be called in every step, after clear_external_force() and before kick(): adds the loads of this time and sets
-  /// the velocities of the step to come. @param time, dt [s]; throws AnalysisError where a function is not finite
+  /// the velocities of the step to come. @param time, dt [s]; throws RunError where a function is not finite
   void apply(double time, double dt);
 
   /// Force of the boundary on the body in the component that a condition prescribes, at the last kick [N].

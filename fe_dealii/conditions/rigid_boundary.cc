@@ -1,6 +1,6 @@
 #include "fe_dealii/conditions/rigid_boundary.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 #include "fe_dealii/material/elastic_parameters.h"
 
 #include <deal.II/base/point.h>
@@ -96,15 +96,15 @@ RigidBoundary::RigidBoundary(MovingBody &body, const std::span<const unsigned in
       mass_(parameters.mass)
 {
   if (nodes.empty())
-    throw ParameterError("rigid body: it has no nodes; name a boundary or nodes of the mesh");
+    throw ConfigError("rigid body: it has no nodes; name a boundary or nodes of the mesh");
   for (const unsigned int node : nodes)
     for (unsigned int i = 0; i < 3; ++i)
       if (node >= body.n_nodes() || body.constraint_of(3 * std::size_t(node) + i))
-        throw ParameterError("rigid body: node " + std::to_string(node) +
-                             (node < body.n_nodes()
-                                  ? " is held by another condition; prescribe the rigid body first, "
-                                    "or leave the node out"
-                                  : " does not exist; the mesh has " + std::to_string(body.n_nodes()) + " nodes"));
+        throw ConfigError("rigid body: node " + std::to_string(node) +
+                          (node < body.n_nodes()
+                               ? " is held by another condition; prescribe the rigid body first, "
+                                 "or leave the node out"
+                               : " does not exist; the mesh has " + std::to_string(body.n_nodes()) + " nodes"));
   Column centre = parameters.mass * column(parameters.centre);
   for (const unsigned int node : nodes)
   {
@@ -185,7 +185,7 @@ void RigidBoundary::move(const Vector &force, const Vector &moment, const double
 {
   const Matrix at_start = matrix(inertia);
   if (!(determinant(at_start) > 0))
-    throw ParameterError("rigid body: its inertia is singular; give it one, or nodes that are not on a line");
+    throw ConfigError("rigid body: its inertia is singular; give it one, or nodes that are not on a line");
   gather_forces();
   const Matrix r = matrix(now.rotation);
   const Column own_arm = r * column(own_centre);

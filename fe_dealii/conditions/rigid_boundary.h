@@ -18,7 +18,7 @@ struct RigidBodyParameters
   std::array<double, 3> centre{};  ///< centre of mass at the start [m]
   std::array<double, 3> inertia{}; ///< about the global axes through the centre, no products; >= 0 [kg m²]
 
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   void validate() const;
 };
 
@@ -30,7 +30,7 @@ class RigidBoundary
 public:
   using Vector = std::array<double, 3>;
 
-  /// Takes all components of the nodes. Throws ParameterError for bad parameters, no nodes, or nodes of which a
+  /// Takes all components of the nodes. Throws ConfigError for bad parameters, no nodes, or nodes of which a
   /// component is prescribed already.
   RigidBoundary(MovingBody &body, std::span<const unsigned int> nodes, const RigidBodyParameters &parameters);
 

@@ -1,6 +1,6 @@
 #include "fe_dealii/conditions/time_function.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
@@ -50,8 +50,8 @@ TimeFunction::TimeFunction(const std::string &text) : text_(text), parser_(std::
   }
   catch (const dealii::ExceptionBase &)
   {
-    throw ParameterError("'" + text + "' is no function of the time; write an expression of t in seconds, such as " +
-                         "-0.01*min(t, 1)");
+    throw ConfigError("'" + text + "' is no function of the time; write an expression of t in seconds, such as " +
+                      "-0.01*min(t, 1)");
   }
 }
 
@@ -67,7 +67,7 @@ double TimeFunction::operator()(const double time) const
   {
     std::ostringstream message;
     message << "'" << text_ << "' is " << value << " at t = " << time << " s; choose a function that stays finite";
-    throw AnalysisError(message.str());
+    throw RunError(message.str());
   }
   return value;
 }

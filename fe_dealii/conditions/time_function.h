@@ -11,14 +11,14 @@ namespace bergamo::fe
 class TimeFunction
 {
 public:
-  /// Throws ParameterError for a text that is no such expression.
+  /// Throws ConfigError for a text that is no such expression.
   explicit TimeFunction(const std::string &text);
   TimeFunction(double constant);
   TimeFunction(TimeFunction &&) noexcept;
   TimeFunction &operator=(TimeFunction &&) noexcept;
   ~TimeFunction();
 
-  /// Throws AnalysisError where the expression is not finite.
+  /// Throws RunError where the expression is not finite.
   double operator()(double time) const;
 
   const std::string &text() const { return text_; }

@@ -1,6 +1,6 @@
 #include "fe_dealii/element/cell_nodes.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -26,8 +26,8 @@ std::vector<unsigned int> cell_nodes(const dealii::DoFHandler<dim, 3> &dof_handl
       const auto first = dofs[element.component_to_system_index(0, node)];
       if (first % 3 != 0 || dofs[element.component_to_system_index(1, node)] != first + 1 ||
           dofs[element.component_to_system_index(2, node)] != first + 2)
-        throw AnalysisError("this version of deal.II numbers the displacement components of a node apart; use 9.4, or "
-                            "renumber in cell_nodes()");
+        throw RunError("this version of deal.II numbers the displacement components of a node apart; use 9.4, or "
+                       "renumber in cell_nodes()");
       nodes.push_back(first / 3);
     }
   }

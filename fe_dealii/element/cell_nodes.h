@@ -15,7 +15,7 @@ namespace bergamo::fe
 {
 
 /// Nodes of all active cells in their order, in the order of the cell's shape functions.
-/// @throws AnalysisError where deal.II numbers in another way
+/// @throws RunError where deal.II numbers in another way
 template <int dim>
 std::vector<unsigned int> cell_nodes(const dealii::DoFHandler<dim, 3> &dof_handler);
 

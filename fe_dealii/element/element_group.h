@@ -63,7 +63,7 @@ public:
   virtual void tangent(std::size_t element, const double *displacement, const double *before, double *matrix) const = 0;
 
   /// Share of the body in what a two-scale model weighs, at the nodes of the whole body, in [0, 1]: multiplies mass and
-  /// forces. Throws ParameterError where the elements know no shares.
+  /// forces. Throws ConfigError where the elements know no shares.
   virtual void set_share(std::span<const double> nodal_share) = 0;
 
   virtual double volume(std::size_t element) const = 0; ///< in the reference configuration, whatever the share [m³]

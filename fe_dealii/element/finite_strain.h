@@ -34,7 +34,7 @@ Tensor3<Points> deformation_gradient(const Element &element, const int pack, con
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
     {
-      Points sum = Points{} + (i == j ? 1. : 0.);
+      Points sum(i == j ? 1. : 0.);
       for (int node = 0; node < Element::nodes; ++node)
         sum += u[3 * node + i] * element.gradient[pack][j][node];
       f[i][j] = sum;
@@ -64,7 +64,7 @@ Response internal_force(const Law &law, const Element &element, const Dilatation
     energy += element.volume[pack] * response_of_law.energy;
     volume += sum(element.volume[pack]);
     present_volume += sum(element.volume[pack] * ratio[pack]);
-    response.smallest_ratio = std::min(response.smallest_ratio, smallest(ratio[pack]));
+    response.smallest_ratio = std::min(response.smallest_ratio, least(ratio[pack]));
   }
   const double mean_ratio = present_volume / volume;
   if (dilatation == Dilatation::mean)
@@ -75,7 +75,7 @@ Response internal_force(const Law &law, const Element &element, const Dilatation
   {
     Points pressure;
     if (dilatation == Dilatation::mean)
-      pressure = Points{} + volumetric.pressure(mean_ratio);
+      pressure = volumetric.pressure(mean_ratio);
     else
     {
       pressure = volumetric.pressure(ratio[pack]);

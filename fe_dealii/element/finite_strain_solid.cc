@@ -1,6 +1,6 @@
 #include "fe_dealii/element/finite_strain_solid.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 namespace bergamo::fe
 {
@@ -50,8 +50,8 @@ void FiniteStrainSolid<Law, n_nodes>::stiffness(const std::size_t element, const
 template <class Law, int n_nodes>
 void FiniteStrainSolid<Law, n_nodes>::set_share(std::span<const double>)
 {
-  throw ParameterError("continuum: a two-scale model shares no body of large strain; choose a linear elastic or a "
-                       "Mohr-Coulomb material");
+  throw ConfigError("continuum: a two-scale model shares no body of large strain; choose a linear elastic or a "
+                    "Mohr-Coulomb material");
 }
 
 template <class Law, int n_nodes>
@@ -73,7 +73,7 @@ ElementState FiniteStrainSolid<Law, n_nodes>::state_of(const std::size_t element
     const Points ratio = determinant(f, minors);
     const Tensor3<Points> first_piola = law_.respond(f, minors, ratio).stress;
     const Points pressure = dilatation == finite_strain::Dilatation::mean
-                                ? Points{} + law_.volumetric().pressure(present_volume / volume(element))
+                                ? Points(law_.volumetric().pressure(present_volume / volume(element)))
                                 : law_.volumetric().pressure(ratio);
     // J σ = P F^T, and its integral over the reference volume is that of σ over the present one.
     for (int c = 0; c < 6; ++c)

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "fe_dealii/material/lanes.h"
+#include "dem/core/pack.h"
 
-#include <algorithm>
 #include <array>
 
 /// Membrane of four nodes and 2×2 points for large strains of incompressible rubber: no bending stiffness, plane
@@ -17,12 +16,7 @@ namespace bergamo::fe::membrane
 inline constexpr int n_nodes = 4, n_points = 4;
 
 /// One double for each of the four points.
-using Points [[gnu::vector_size(32)]] = double;
-
-inline double sum(const Points &x)
-{
-  return (x[0] + x[1]) + (x[2] + x[3]);
-}
+using Points = Lanes<n_points>;
 
 /// What an element is in the reference configuration. At each point directions 1 and 2 are orthonormal and tangential.
 struct Geometry
@@ -59,8 +53,8 @@ inline Stretches stretches(const Geometry &element, const double *u)
   { return Points(s.along[a][0] * s.along[b][0] + s.along[a][1] * s.along[b][1] + s.along[a][2] * s.along[b][2]); };
   const Points c11 = dot(0, 0), c22 = dot(1, 1), c12 = dot(0, 1);
   const Points mean = 0.5 * (c11 + c22), half_gap = 0.5 * (c11 - c22);
-  const Points radius = lanes::square_root(Points(half_gap * half_gap + c12 * c12));
-  const Points safe = radius > 0. ? radius : Points{} + 1.;
+  const Points radius = math::sqrt(Points(half_gap * half_gap + c12 * c12));
+  const Points safe = math::select(radius > 0., radius, Points(1.));
   s.cosine = half_gap / safe;
   s.sine = c12 / safe;
   const Points determinant = c11 * c22 - c12 * c12;
@@ -114,12 +108,12 @@ Response internal_force(const Law &law, const Geometry &element, const double *u
     const Points p1 = s11 * stretch.along[0][i] + s12 * stretch.along[1][i],
                  p2 = s12 * stretch.along[0][i] + s22 * stretch.along[1][i];
     for (int node = 0; node < n_nodes; ++node)
-      force[3 * node + i] = sum(p1 * element.gradient[0][node] + p2 * element.gradient[1][node]);
+      force[3 * node + i] = math::sum(p1 * element.gradient[0][node] + p2 * element.gradient[1][node]);
   }
   const Points growth = 1. / stretch.third;
-  return {sum(element.volume * (law.principal_energy(stretch.first) + law.principal_energy(stretch.second) +
-                                law.principal_energy(stretch.third))),
-          std::min(std::min(growth[0], growth[1]), std::min(growth[2], growth[3]))};
+  return {math::sum(element.volume * (law.principal_energy(stretch.first) + law.principal_energy(stretch.second) +
+                                      law.principal_energy(stretch.third))),
+          math::least(growth)};
 }
 
 /// Value of a shape function at a point, the quadrature point of the same number in Geometry.

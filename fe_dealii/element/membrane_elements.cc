@@ -1,8 +1,8 @@
 #include "fe_dealii/element/membrane_elements.h"
 
+#include "dem/core/error.h"
 #include "fe_dealii/element/cell_nodes.h"
 #include "fe_dealii/element/difference_tangent.h"
-#include "fe_dealii/error.h"
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/grid/tria.h>
@@ -14,7 +14,7 @@
 namespace bergamo::fe
 {
 
-using membrane::sum;
+using math::sum;
 
 constexpr int n_dofs = 3 * membrane::n_nodes;
 // Square of the area over that in the reference: a millionth of the area, where rounding takes over.
@@ -76,7 +76,7 @@ void MembraneElements::stiffness(const std::size_t element, const double *displa
 
 void MembraneElements::set_share(std::span<const double>)
 {
-  throw ParameterError("membrane: a two-scale model shares no membrane; choose a solid");
+  throw ConfigError("membrane: a two-scale model shares no membrane; choose a solid");
 }
 
 ElementState MembraneElements::state_of(const std::size_t element, const double *displacement) const
@@ -107,7 +107,7 @@ MembraneState MembraneElements::membrane_state_of(const std::size_t element, con
   MembraneState state;
   for (int k = 0; k < 2; ++k)
     state.principal_stress[k] = sum(volume * stress.principal[k]) / sum(volume);
-  state.thickness = thickness_ * sum(volume) / sum(volume / lanes::square_root(stretch.third));
+  state.thickness = thickness_ * sum(volume) / sum(volume / math::sqrt(stretch.third));
   return state;
 }
 
@@ -141,7 +141,7 @@ std::unique_ptr<MembraneElements> make_membrane_elements(const dealii::DoFHandle
       std::ostringstream message;
       message << "membrane: cell " << cell->active_cell_index() << " at (" << cell->center()
               << ") m is degenerate or folded over (area " << area << " m^2 at a quadrature point); repair the mesh";
-      throw ParameterError(message.str());
+      throw ConfigError(message.str());
     }
   }
   return std::make_unique<MembraneElements>(law, cell_nodes(dof_handler), std::move(geometries), thickness);

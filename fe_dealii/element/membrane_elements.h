@@ -48,7 +48,7 @@ public:
     stiffness(element, displacement, matrix);
   }
   void set_share(std::span<const double> nodal_share) override;
-  double volume(const std::size_t element) const override { return membrane::sum(geometry_[element].volume); }
+  double volume(const std::size_t element) const override { return math::sum(geometry_[element].volume); }
   ElementState state_of(std::size_t element, const double *displacement) const override;
   MembraneState membrane_state_of(std::size_t element, const double *displacement) const;
   double elastic_energy() const override;
@@ -64,7 +64,7 @@ private:
 
 /// The membranes on all active cells, in their order.
 /// @param dof_handler of an FESystem(FE_Q(1), 3) on quadrilaterals; @param thickness > 0 [m]
-/// @throws ParameterError for a cell that is degenerate or folded over
+/// @throws ConfigError for a cell that is degenerate or folded over
 std::unique_ptr<MembraneElements> make_membrane_elements(const dealii::DoFHandler<2, 3> &dof_handler, const Rubber &law,
                                                          double thickness);
 

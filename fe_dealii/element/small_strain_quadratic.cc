@@ -1,6 +1,6 @@
 #include "fe_dealii/element/small_strain_quadratic.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 namespace bergamo::fe
 {
@@ -139,7 +139,7 @@ void SmallStrainQuadratic<Law>::tangent(const std::size_t element, const double 
 template <class Law>
 void SmallStrainQuadratic<Law>::set_share(std::span<const double>)
 {
-  throw ParameterError("continuum: a two-scale model shares no elements of 27 nodes; choose degree 1");
+  throw ConfigError("continuum: a two-scale model shares no elements of 27 nodes; choose degree 1");
 }
 
 template class SmallStrainQuadratic<LinearElastic>;

@@ -1,10 +1,10 @@
 #include "fe_dealii/element/solid_elements.h"
 
+#include "dem/core/error.h"
 #include "fe_dealii/element/cell_nodes.h"
 #include "fe_dealii/element/finite_strain_solid.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/element/small_strain_quadratic.h"
-#include "fe_dealii/error.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -42,7 +42,7 @@ void for_each_cell(const dealii::DoFHandler<3> &dof_handler, const unsigned int 
         message << "mesh: cell " << cell->active_cell_index() << " at " << cell->center()
                 << " is turned inside out at one of its corners (volume " << values.JxW(point)
                 << " m^3 at a quadrature point); repair the mesh";
-        throw ParameterError(message.str());
+        throw ConfigError(message.str());
       }
     take(values);
   }
@@ -66,7 +66,7 @@ void check_initial_stress(const Law &law, const Stress &stress, const dealii::Po
     message << "is " << excess << " Pa beyond the yield surface; choose one that the material bears";
   else
     message << "is not finite; give numbers";
-  throw ParameterError(message.str());
+  throw ConfigError(message.str());
 }
 
 /// The points of a cell at rest.
@@ -198,8 +198,8 @@ struct Maker
   std::unique_ptr<ElementGroup> of_large_strain(const Law &law) const
   {
     if (initial_stress)
-      throw ParameterError("continuum: initial_stress is given for a law of large strain, which has no stress at rest; "
-                           "leave it out");
+      throw ConfigError("continuum: initial_stress is given for a law of large strain, which has no stress at rest; "
+                        "leave it out");
     if (degree() == 1)
       return finite_strain<Law, 8>(dof_handler, law);
     return finite_strain<Law, 27>(dof_handler, law);

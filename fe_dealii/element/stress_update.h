@@ -55,7 +55,7 @@ inline void update_stress(const MohrCoulomb &material, const Points &weighted_vo
                           const Points (&strain_increment)[6], PointHistory &history, Sector *sector)
 {
   const Points dissipated_before = history.dissipated_energy;
-  Points trial[6], stiffness = Points{} + 1.;
+  Points trial[6], stiffness(1.);
   if (material.depends_on_pressure())
     stiffness = material.stiffness_factor(Points((history.stress[0] + history.stress[1] + history.stress[2]) / 3.));
   elastic_stress(material, strain_increment, trial);
@@ -67,7 +67,7 @@ inline void update_stress(const MohrCoulomb &material, const Points &weighted_vo
   const auto elastic = material.is_surely_elastic(mean, j2);
   for (int point = 0; point < points_per_pack; ++point)
     sector[point] = Sector::elastic;
-  if (lanes::any(elastic == 0))
+  if (math::any(!elastic))
   {
     const PrincipalFrame<Points> frames = principal_frame<Points>(trial);
     for (int point = 0; point < points_per_pack; ++point)

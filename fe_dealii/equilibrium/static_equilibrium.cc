@@ -1,7 +1,7 @@
 #include "fe_dealii/equilibrium/static_equilibrium.h"
 
+#include "dem/core/error.h"
 #include "fe_dealii/equilibrium/tangent_system.h"
-#include "fe_dealii/error.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/material/elastic_parameters.h"
 
@@ -84,7 +84,7 @@ private:
     {
       body.compute_internal_force();
     }
-    catch (const AnalysisError &) // turned inside out: too far
+    catch (const RunError &) // turned inside out: too far
     {
       return std::numeric_limits<double>::infinity();
     }
@@ -169,7 +169,7 @@ private:
             << " of the forces stay out of balance, most at node " << worst / 3 << " at (" << place[0] << ", "
             << place[1] << ", " << place[2] << ") m. The body may not bear the load: lower it, apply it in smaller "
             << "increments, or strengthen the material";
-    throw AnalysisError(message.str());
+    throw RunError(message.str());
   }
 
   ExplicitBody &body;

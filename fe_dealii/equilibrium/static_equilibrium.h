@@ -15,7 +15,7 @@ struct EquilibriumParameters
   double duration = 0;              ///< prescribed dofs move by their velocity times this [s]; 0: they stay
   std::size_t direct_limit = 10000; ///< largest number of dofs that is solved directly, see TangentSystem
 
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   void validate() const;
 };
 
@@ -29,7 +29,7 @@ struct EquilibriumReport
 /// prescribed dofs, from its present stresses: Newton's method with the consistent tangent, damped by halving. One
 /// call is one increment of the path: where plastic flow depends on the path, load in several. Leaves the body at rest
 /// (ExplicitBody::rest()); keep the external forces as they are and the explicit run starts without motion.
-/// Throws ParameterError, and AnalysisError with the place of the largest force out of balance where no equilibrium is
+/// Throws ConfigError, and RunError with the place of the largest force out of balance where no equilibrium is
 /// found; the body is then as before.
 EquilibriumReport find_equilibrium(ExplicitBody &body, const EquilibriumParameters &parameters = {});
 

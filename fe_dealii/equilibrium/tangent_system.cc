@@ -1,6 +1,7 @@
 #include "fe_dealii/equilibrium/tangent_system.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
+#include "dem/core/parallel.h"
 #include "fe_dealii/explicit_body.h"
 
 #include <deal.II/base/mpi.h>
@@ -49,8 +50,8 @@ TangentSystem::TangentSystem(const ExplicitBody &body, const std::size_t direct_
     : trilinos(std::make_unique<Trilinos>()), body(body)
 {
   if (!dealii::Utilities::MPI::job_supports_mpi())
-    throw AnalysisError("static equilibrium: MPI is not initialized; create a dealii::Utilities::MPI::MPI_InitFinalize "
-                        "at the start of the program");
+    throw RunError("static equilibrium: MPI is not initialized; create a dealii::Utilities::MPI::MPI_InitFinalize "
+                   "at the start of the program");
   const std::size_t n_dofs = 3 * body.n_nodes();
   trilinos->is_direct = n_dofs <= direct_limit;
   dealii::DynamicSparsityPattern pattern(n_dofs, n_dofs);
@@ -85,9 +86,7 @@ void TangentSystem::Trilinos::assemble(const ExplicitBody &body, const ElementMa
   for (std::size_t first = 0; first < elements.size(); first += block_elements)
   {
     const std::size_t end = std::min(elements.size(), first + block_elements);
-#pragma omp parallel for schedule(static)
-    for (std::size_t e = first; e < end; ++e)
-      element_matrix(e, &matrices[(e - first) * n * n]);
+    parallel_for(end - first, [&](const std::size_t k) { element_matrix(first + k, &matrices[k * n * n]); });
     for (std::size_t e = first; e < end; ++e)
     {
       for (std::size_t k = 0; k < n; ++k)
@@ -202,14 +201,14 @@ unsigned int TangentSystem::solve(const std::span<const double> residual, const 
   }
   catch (const dealii::ExceptionBase &error)
   {
-    throw AnalysisError("static equilibrium: the linear system has no solution (" + std::string(error.what()) +
-                        "); hold the body against every rigid motion");
+    throw RunError("static equilibrium: the linear system has no solution (" + std::string(error.what()) +
+                   "); hold the body against every rigid motion");
   }
   for (std::size_t dof = 0; dof < increment.size(); ++dof)
   {
     increment[dof] = body.constraint_of(dof) ? 0 : trilinos->left[dof];
     if (!std::isfinite(increment[dof]))
-      throw AnalysisError("static equilibrium: the stiffness is singular; hold the body against every rigid motion");
+      throw RunError("static equilibrium: the stiffness is singular; hold the body against every rigid motion");
   }
   return n_iterations;
 }

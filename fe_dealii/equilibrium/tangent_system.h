@@ -30,7 +30,7 @@ public:
 
   /// increment = K⁻¹ residual on the free dofs, 0 on the prescribed ones.
   /// @param tolerance of the linear residual over that of a zero increment
-  /// @return linear iterations, 0 of the direct solver; throws AnalysisError where the system has no solution
+  /// @return linear iterations, 0 of the direct solver; throws RunError where the system has no solution
   unsigned int solve(std::span<const double> residual, double tolerance, std::span<double> increment);
 
 private:

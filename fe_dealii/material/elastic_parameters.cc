@@ -1,6 +1,6 @@
 #include "fe_dealii/material/elastic_parameters.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 #include <cmath>
 #include <sstream>
@@ -14,7 +14,7 @@ void require_parameter(const bool holds, const char *material, const char *name,
     return;
   std::ostringstream message;
   message << material << ": " << name << " = " << value << " is not allowed; " << rule;
-  throw ParameterError(message.str());
+  throw ConfigError(message.str());
 }
 
 void ElasticParameters::validate(const char *material) const

@@ -13,11 +13,11 @@ struct ElasticParameters
   double shear_modulus() const { return young_modulus / (2 * (1 + poisson_ratio)); }
   double bulk_modulus() const { return young_modulus / (3 * (1 - 2 * poisson_ratio)); }
 
-  /// Throws ParameterError that names the material and the first value outside its range.
+  /// Throws ConfigError that names the material and the first value outside its range.
   void validate(const char *material) const;
 };
 
-/// Throws ParameterError "MATERIAL: NAME = VALUE is not allowed; RULE" unless it holds; for the other parameters of a
+/// Throws ConfigError "MATERIAL: NAME = VALUE is not allowed; RULE" unless it holds; for the other parameters of a
 /// law.
 void require_parameter(bool holds, const char *material, const char *name, double value, const char *rule);
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "dem/core/pack.h"
 #include "fe_dealii/material/deformation.h"
-#include "fe_dealii/material/lanes.h"
 
 /// Hyperelastic laws: energies of the deformation gradient F, of large strain and rotation.
 ///
@@ -23,7 +23,7 @@ struct VolumetricEnergy
   template <class Real>
   Real energy(const Real &ratio) const
   {
-    return (0.25 * modulus) * (ratio * ratio - 1. - 2. * lanes::logarithm(ratio));
+    return (0.25 * modulus) * (ratio * ratio - 1. - 2. * math::library_log(ratio));
   }
 
   /// U'(J), tension positive [Pa].

@@ -23,11 +23,11 @@ struct GeostaticStress
   double earth_pressure_at_rest = 0.5; ///< K0, >= 0 [-]
   double surcharge = 0;                ///< on the surface, >= 0 [Pa]
 
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   void validate() const;
 };
 
-/// Throws ParameterError for a value out of its range.
+/// Throws ConfigError for a value out of its range.
 InitialStress geostatic_stress(const GeostaticStress &ground);
 
 /// K0 = 1 − sin φ of ground that was only ever loaded (Jaky 1944). @param friction_angle φ [degrees]

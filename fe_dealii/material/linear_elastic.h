@@ -12,7 +12,7 @@ namespace bergamo::fe
 class LinearElastic
 {
 public:
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   explicit LinearElastic(const ElasticParameters &parameters) : p(parameters) { p.validate("linear elastic material"); }
 
   double shear_modulus() const { return p.shear_modulus(); }                       ///< G [Pa]

@@ -23,7 +23,7 @@ struct MohrCoulombParameters
   double reference_pressure = 0;   ///< p_r at which the Young's modulus holds [Pa]; 0: it holds at any pressure
   double stiffness_exponent = 0.5; ///< m: the modulus grows as (p/p_r)^m [-], in [0, 1]
 
-  /// Throws ParameterError that names the first value outside its range.
+  /// Throws ConfigError that names the first value outside its range.
   void validate() const;
 };
 
@@ -57,7 +57,7 @@ struct StressUpdate
 class MohrCoulomb
 {
 public:
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   explicit MohrCoulomb(const MohrCoulombParameters &parameters);
 
   /// Stress after a strain increment from an admissible stress. Works for increments of any size.
@@ -79,8 +79,8 @@ public:
   Real stiffness_factor(const Real &mean) const
   {
     const Real share = mean * (-1 / parameters_.reference_pressure);
-    return lanes::power(Real(share > least_pressure_share ? share : least_pressure_share + 0 * share),
-                        parameters_.stiffness_exponent);
+    return math::library_pow(math::select(share > least_pressure_share, share, Real(least_pressure_share)),
+                             parameters_.stiffness_exponent);
   }
 
   /// Elastic stress of a strain.

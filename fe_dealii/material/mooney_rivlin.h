@@ -11,7 +11,7 @@ struct MooneyRivlinParameters
   ElasticParameters elastic;
   double second_share = 0.05; ///< c: share of the second invariant in the shear modulus [-], in [0, 1]
 
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   void validate() const
   {
     elastic.validate("Mooney-Rivlin material");
@@ -25,7 +25,7 @@ struct MooneyRivlinParameters
 class MooneyRivlin
 {
 public:
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   explicit MooneyRivlin(const MooneyRivlinParameters &parameters) : p(parameters) { p.validate(); }
 
   template <class Real>
@@ -78,7 +78,7 @@ private:
     Invariants<Real> v;
     right_cauchy_green(f, v.c);
     const auto &c = v.c;
-    v.scale = lanes::power(ratio, -2. / 3.);
+    v.scale = math::library_pow(ratio, -2. / 3.);
     v.first = v.scale * (c[0] + c[1] + c[2]);
     v.second = v.scale * v.scale * (c[0] * c[1] + c[1] * c[2] + c[2] * c[0] - c[3] * c[3] - c[4] * c[4] - c[5] * c[5]);
     return v;

@@ -11,7 +11,7 @@ namespace bergamo::fe
 class NeoHooke
 {
 public:
-  /// Throws ParameterError; Poisson's ratio in [0, 0.5), since Λ must not be negative.
+  /// Throws ConfigError; Poisson's ratio in [0, 0.5), since Λ must not be negative.
   explicit NeoHooke(const ElasticParameters &parameters) : p(parameters)
   {
     p.validate("Neo-Hooke material");
@@ -28,7 +28,7 @@ public:
         response.stress[i][j] = shear_modulus() * (f[i][j] - minors[i][j] / ratio);
     Real c[6];
     right_cauchy_green(f, c);
-    response.energy = (0.5 * shear_modulus()) * (c[0] + c[1] + c[2] - 3. - 2. * lanes::logarithm(ratio));
+    response.energy = (0.5 * shear_modulus()) * (c[0] + c[1] + c[2] - 3. - 2. * math::library_log(ratio));
     return response;
   }
 

@@ -25,7 +25,7 @@ struct OgdenParameters
     return 0.5 * (modulus[0] * exponent[0] + modulus[1] * exponent[1] + modulus[2] * exponent[2]);
   }
 
-  /// Throws ParameterError; every μ_p α_p must be at least 0 (Ogden's condition), one of them positive.
+  /// Throws ConfigError; every μ_p α_p must be at least 0 (Ogden's condition), one of them positive.
   void validate() const;
 };
 
@@ -34,14 +34,14 @@ struct OgdenParameters
 class Ogden
 {
 public:
-  /// Throws ParameterError.
+  /// Throws ConfigError.
   explicit Ogden(const OgdenParameters &parameters) : p(parameters) { p.validate(); }
 
   template <class Real>
   PointResponse<Real> respond(const Tensor3<Real> &f, const Tensor3<Real> &, const Real &ratio) const
   {
     const PrincipalFrame<Real> stretch = principal_squares(f);
-    const Real scale = lanes::power(ratio, -2. / 3.);
+    const Real scale = math::library_pow(ratio, -2. / 3.);
     Real slope[3], energy = 0. * ratio;
     for (int k = 0; k < 3; ++k)
     {
@@ -91,12 +91,12 @@ private:
   template <class Real>
   Principal<Real> principal_response(const Real &square) const
   {
-    const Real log_stretch = 0.5 * lanes::logarithm(square);
+    const Real log_stretch = 0.5 * math::library_log(square);
     Principal<Real> sum{0. * square, 0. * square};
     for (int n = 0; n < 3; ++n)
       if (p.modulus[n] != 0)
       {
-        const Real power = lanes::exponential(Real(p.exponent[n] * log_stretch));
+        const Real power = math::library_exp(Real(p.exponent[n] * log_stretch));
         sum.slope += p.modulus[n] * power;
         sum.energy += (p.modulus[n] / p.exponent[n]) * (power - 1.);
       }

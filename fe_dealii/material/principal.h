@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fe_dealii/material/lanes.h"
+#include "dem/core/pack.h"
 #include "fe_dealii/material/tensor.h"
 
 namespace bergamo::fe
@@ -28,7 +28,7 @@ PrincipalFrame<Real> principal_frame(const Real (&stress)[6])
   for (int sweep = 0; sweep < 8; ++sweep)
   {
     const Real off_square = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
-    if (!lanes::any(off_square > 1e-34 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])))
+    if (!math::any(off_square > 1e-34 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])))
       break;
 #pragma GCC unroll 3
     for (int p = 0; p < 3; ++p)
@@ -36,10 +36,10 @@ PrincipalFrame<Real> principal_frame(const Real (&stress)[6])
       const int q = (p + 1) % 3, r = (p + 2) % 3;
       const Real coupling = off[p];
       const Real half_gap = 0.5 * (d[q] - d[p]);
-      const Real root = lanes::square_root(Real(half_gap * half_gap + coupling * coupling));
-      const Real denominator = half_gap >= 0. ? half_gap + root : half_gap - root;
-      const Real t = coupling / (denominator == 0. ? one : denominator);
-      const Real c = 1. / lanes::square_root(Real(1. + t * t)), s = t * c;
+      const Real root = math::sqrt(Real(half_gap * half_gap + coupling * coupling));
+      const Real denominator = math::select(half_gap >= 0., Real(half_gap + root), Real(half_gap - root));
+      const Real t = coupling / math::select(denominator == 0., one, denominator);
+      const Real c = 1. / math::sqrt(Real(1. + t * t)), s = t * c;
       d[p] -= t * coupling;
       d[q] += t * coupling;
       off[p] = zero;
@@ -62,8 +62,8 @@ PrincipalFrame<Real> principal_frame(const Real (&stress)[6])
     const auto exchange = [&](Real &x, Real &y)
     {
       const Real old = x;
-      x = wrong ? y : x;
-      y = wrong ? old : y;
+      x = math::select(wrong, y, x);
+      y = math::select(wrong, old, y);
     };
     exchange(d[p], d[q]);
     for (int i = 0; i < 3; ++i)

@@ -1,6 +1,6 @@
 #include "fe_dealii/mesh/box_mesh.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>
@@ -22,19 +22,19 @@ void BoxMeshParameters::validate() const
       message << "box mesh: along "
               << "xyz"[i] << " it reaches from " << minimum[i] << " to " << maximum[i]
               << " m; the maximum must exceed the minimum and both must be finite";
-      throw ParameterError(message.str());
+      throw ConfigError(message.str());
     }
     if (subdivisions[i] == 0)
     {
       message << "box mesh: subdivisions along "
               << "xyz"[i] << " = 0 is not allowed; give at least 1";
-      throw ParameterError(message.str());
+      throw ConfigError(message.str());
     }
     if (!(grading[i] > 0) || !std::isfinite(grading[i]))
     {
       message << "box mesh: grading along "
               << "xyz"[i] << " = " << grading[i] << " is not allowed; give a positive number, 1 for equal bricks";
-      throw ParameterError(message.str());
+      throw ConfigError(message.str());
     }
   }
 }
@@ -61,8 +61,8 @@ void make_box(const BoxMeshParameters &parameters, dealii::Triangulation<3, 3> &
 {
   parameters.validate();
   if (triangulation.n_levels() != 0)
-    throw ParameterError("box mesh: the triangulation already holds " + std::to_string(triangulation.n_active_cells()) +
-                         " cells; pass an empty one or call clear() first");
+    throw ConfigError("box mesh: the triangulation already holds " + std::to_string(triangulation.n_active_cells()) +
+                      " cells; pass an empty one or call clear() first");
   const auto &[min, max, n, grading] = parameters;
   std::vector<std::vector<double>> edges;
   for (int i = 0; i < 3; ++i)

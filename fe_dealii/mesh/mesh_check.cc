@@ -1,6 +1,6 @@
 #include "fe_dealii/mesh/mesh_check.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -21,10 +21,7 @@ using Point = dealii::Point<3>;
 template <class... Parts>
 [[noreturn]] void reject(const Parts &...parts)
 {
-  std::ostringstream message;
-  message << "mesh: ";
-  (message << ... << parts);
-  throw ParameterError(message.str());
+  bergamo::reject("mesh: ", parts...);
 }
 
 std::string place(const Point &point)

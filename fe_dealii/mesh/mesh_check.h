@@ -9,7 +9,7 @@ class Triangulation;
 namespace bergamo::fe
 {
 
-/// Looks for what a mesh from elsewhere may suffer from. Throws ParameterError, with the place, for
+/// Looks for what a mesh from elsewhere may suffer from. Throws ConfigError, with the place, for
 /// - cells that are no hexahedra, or no cells at all;
 /// - cells turned inside out or flat at a corner;
 /// - vertices closer than a thousandth of the shortest edge that are not joined: a seam that parts the body;

@@ -1,6 +1,6 @@
 #include "fe_dealii/mesh/mesh_file.h"
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 #include "fe_dealii/mesh/mesh_check.h"
 
 #include <deal.II/grid/grid_in.h>
@@ -21,10 +21,7 @@ namespace
 template <class... Parts>
 [[noreturn]] void reject(const std::filesystem::path &path, const Parts &...parts)
 {
-  std::ostringstream message;
-  message << "mesh file " << path.string() << ": ";
-  (message << ... << parts);
-  throw ParameterError(message.str());
+  bergamo::reject("mesh file ", path.string(), ": ", parts...);
 }
 
 enum class Format
@@ -120,10 +117,10 @@ void read_mesh(const std::filesystem::path &path, dealii::Triangulation<3, 3> &t
   {
     check_mesh(triangulation);
   }
-  catch (const ParameterError &error)
+  catch (const ConfigError &error)
   {
     triangulation.clear();
-    throw ParameterError(path.string() + ": " + error.what());
+    throw ConfigError(path.string() + ": " + error.what());
   }
 }
 

@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -1,5 +1,6 @@
 #include "coupling/arlequin/projection.h"
 #include "coupling_arlequin_block.h"
+#include "dem/core/error.h"
 
 #include <catch2/catch.hpp>
 #include <functional>
@@ -58,7 +59,7 @@ std::string message_of(const std::function<void()> &action)
   {
     action();
   }
-  catch (const std::invalid_argument &error)
+  catch (const bergamo::ConfigError &error)
   {
     return error.what();
   }

@@ -11,6 +11,7 @@
 
 // Grains whose centres coincide: phi(c) = h1(c) + h2(-c) has its least minimum there as anywhere.
 
+using namespace bergamo;
 using namespace bergamo::dem;
 using namespace contact_pairs;
 

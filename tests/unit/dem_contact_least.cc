@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 using namespace contact_pairs;
 

@@ -9,6 +9,7 @@
 namespace contact_pairs
 {
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 struct Grain

@@ -14,6 +14,7 @@
 namespace contact_reference
 {
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 enum class Verdict

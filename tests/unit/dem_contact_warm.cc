@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 using namespace contact_pairs;
 

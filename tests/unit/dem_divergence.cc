@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

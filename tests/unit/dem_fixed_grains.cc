@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 TEST_CASE("a fixed grain stays where it is and carries what falls on it")

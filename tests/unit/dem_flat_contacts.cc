@@ -16,6 +16,7 @@
 // r_max/k, both are r_max/k in the limit. With one exponent on either side of two the limit depends on the direction of
 // the tilt; then what is asked for is that no step of the tilt changes much, the last one to zero included.
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -13,6 +13,7 @@
 #include <random>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -1,5 +1,5 @@
-#include "dem/core/error.h"
 #include "dem/core/archive.h"
+#include "dem/core/error.h"
 
 #include "tests/temporary_folder.h"
 #include <bit>
@@ -17,6 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 namespace fs = std::filesystem;
 

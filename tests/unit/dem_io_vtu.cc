@@ -1,5 +1,5 @@
 #include "dem/core/error.h"
-#include "dem/io/pvd.h"
+#include "dem/core/pvd.h"
 #include "dem/io/vtu.h"
 
 #include "tests/temporary_folder.h"
@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 namespace fs = std::filesystem;
 

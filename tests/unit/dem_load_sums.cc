@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 TEST_CASE("loads summed by chunks are the sums over all contacts, also after bodies have run out of room")

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 TEST_CASE("images of a periodic cell are opposite to one another and bring grains near")

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 TEST_CASE("an assembly's row gathers what its contacts say")

@@ -11,6 +11,7 @@
 namespace measured
 {
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 /// Normal along the branch. @param tangential on body 1 [N]

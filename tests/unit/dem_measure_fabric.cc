@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 using measured::contact;
 

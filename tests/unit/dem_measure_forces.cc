@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 using Catch::Matchers::Contains;
 using measured::contact;

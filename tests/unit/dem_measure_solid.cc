@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 using Catch::Matchers::Contains;
 

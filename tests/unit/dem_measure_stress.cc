@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 using Catch::Matchers::Contains;
 

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 TEST_CASE("uniform sizes of random shapes")

@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 TEST_CASE("grains apart by their spheres, their centre line or a plane")

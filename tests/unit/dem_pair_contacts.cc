@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

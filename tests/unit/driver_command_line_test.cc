@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 using namespace bergamo::driver;
-using bergamo::dem::ConfigError;
+using bergamo::ConfigError;
 using Catch::Matchers::Contains;
 
 namespace

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 using namespace bergamo::driver;
-using bergamo::dem::ConfigError;
+using bergamo::ConfigError;
 using Catch::Matchers::Contains;
 
 TEST_CASE("the wanted columns of a table are read wherever they stand; others and a cut last row are left out")

@@ -11,7 +11,7 @@
 #include <limits>
 
 using namespace bergamo::driver;
-using bergamo::dem::ConfigError;
+using bergamo::ConfigError;
 using Catch::Matchers::Contains;
 using Catch::Matchers::Message;
 

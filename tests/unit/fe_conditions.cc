@@ -1,6 +1,6 @@
+#include "dem/core/error.h"
 #include "fe_dealii/conditions/boundary_conditions.h"
 #include "fe_dealii/conditions/rigid_boundary.h"
-#include "fe_dealii/error.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
 

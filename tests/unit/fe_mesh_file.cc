@@ -1,4 +1,4 @@
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/mesh/mesh_check.h"
@@ -12,6 +12,7 @@
 #include <map>
 #include <sstream>
 
+using namespace bergamo;
 using namespace bergamo::fe;
 using Catch::Matchers::Contains;
 using Catch::Matchers::Predicate;
@@ -179,7 +180,7 @@ std::string complaint(const std::string &name, const std::string &content, const
   {
     read_mesh(folder / name, mesh, unit);
   }
-  catch (const ParameterError &error)
+  catch (const ConfigError &error)
   {
     CHECK(mesh.n_levels() == 0); // so that another file may be read into it
     CHECK_THAT(error.what(), Contains((folder / name).string()));
@@ -286,7 +287,7 @@ TEST_CASE("Meshes are checked: cells inside out or flat, seams, pieces, no hexah
   CHECK_THROWS_WITH(check_mesh(mesh), Contains("cell 1") && Contains("is flat at its corner (1.66667, 0.666667"));
   second->vertex(7) = second->vertex(6); // an edge without length
   CHECK_THROWS_WITH(check_mesh(mesh), Contains("is flat"));
-  CHECK_THROWS_AS(check_mesh(mesh), ParameterError);
+  CHECK_THROWS_AS(check_mesh(mesh), ConfigError);
 
   CHECK_THROWS_WITH(read(two_bricks(false)),
                     Contains("vertices coincide at (1, ") && Contains("4 pairs") && Contains("Coherence"));

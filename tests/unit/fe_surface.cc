@@ -1,5 +1,5 @@
+#include "dem/core/error.h"
 #include "fe_dealii/boundary/surface_load.h"
-#include "fe_dealii/error.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 

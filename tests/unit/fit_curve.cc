@@ -8,7 +8,7 @@
 #include <numbers>
 
 using namespace bergamo::driver;
-using bergamo::dem::ConfigError;
+using bergamo::ConfigError;
 using Catch::Matchers::Contains;
 
 namespace

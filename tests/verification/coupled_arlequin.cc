@@ -17,8 +17,6 @@
 
 using namespace bergamo;
 using coupling::TwoScaleModel;
-using dem::Mat3;
-using dem::Vec3;
 
 namespace
 {

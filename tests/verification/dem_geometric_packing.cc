@@ -13,6 +13,7 @@
 
 // Packings made geometrically, after Wellmann 3.4.4: random addition and tightening.
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

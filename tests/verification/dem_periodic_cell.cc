@@ -16,6 +16,7 @@
 #include <set>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

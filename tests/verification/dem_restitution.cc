@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 TEST_CASE("two spheres rebound with the restitution that their relaxation time was chosen for")

@@ -10,6 +10,7 @@
 #include <omp.h>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace

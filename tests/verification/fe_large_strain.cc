@@ -1,6 +1,6 @@
 // Bodies of rubber-like materials at large strain and rotation, elements of 8 and of 27 nodes.
 
-#include "fe_dealii/error.h"
+#include "dem/core/error.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"

@@ -1,7 +1,7 @@
 // Mass scaling: a few thin elements get the inertia that a wanted time step takes, and nothing else changes.
 
+#include "dem/core/error.h"
 #include "fe_dealii/equilibrium/static_equilibrium.h"
-#include "fe_dealii/error.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Collection file that ParaView opens as a series over time: pairs of time [s] and file name (relative to the
@@ -13,4 +13,4 @@ namespace bergamo::dem
 /// Throws RunError where the file cannot be written.
 void write_pvd(const std::filesystem::path &path, std::span<const std::pair<double, std::string>> frames);
 
-} // namespace bergamo::dem
+} // namespace bergamo

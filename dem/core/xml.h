@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Text as it may stand in the value of an XML attribute.
@@ -31,4 +31,4 @@ inline std::string xml_escaped(const std::string_view text)
   return escaped;
 }
 
-} // namespace bergamo::dem
+} // namespace bergamo

@@ -1,11 +1,11 @@
-#include "dem/io/pvd.h"
+#include "dem/core/pvd.h"
 
 #include "dem/core/whole_file.h"
-#include "dem/io/xml.h"
+#include "dem/core/xml.h"
 
 #include <charconv>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 void write_pvd(const std::filesystem::path &path, const std::span<const std::pair<double, std::string>> frames)
@@ -20,9 +20,7 @@ void write_pvd(const std::filesystem::path &path, const std::span<const std::pai
   }
   text += "  </Collection>\n</VTKFile>\n";
 
-  WholeFile file(path);
-  file.write(text);
-  file.commit();
+  write_whole_file(path, text);
 }
 
-} // namespace bergamo::dem
+} // namespace bergamo
