@@ -22,9 +22,8 @@ double mean_relative_overlap(const dem::Simulation &simulation)
 std::vector<Phase> phase_times(const dem::Simulation &simulation)
 {
   const PhaseTimes &t = simulation.times;
-  return {{"neighbours", t.neighbours}, {"contacts", t.contacts}, {"screening", t.screening},
-          {"searches", t.searches},     {"summation", t.summation},
-          {"motion", t.motion}};
+  return {{"neighbours", t.neighbours}, {"contacts", t.contacts},   {"screening", t.screening},
+          {"searches", t.searches},     {"summation", t.summation}, {"motion", t.motion}};
 }
 
 } // namespace bergamo::benchmark

@@ -7,8 +7,8 @@
 #include "dem/contact/common_normal.h"
 #include "dem/contact/newton_search.h"
 #include "dem/contact/pose_lanes.h"
-#include "dem/force/follow.h"
 #include "dem/force/contacts.h"
+#include "dem/force/follow.h"
 #include "dem/force/search_contacts.h"
 #include "dem/motion/leapfrog.h"
 #include "dem/packing/distribution.h"
@@ -121,7 +121,8 @@ public:
   {
     begun.reserve(n_pairs);
     for (int pair = 0; pair < n_pairs; ++pair)
-      searches.push_back({pair, 2 * pair, 2 * pair + 1, 2 * pair, 2 * pair + 1, own_image, ContactSet<GrainGrain>::apart});
+      searches.push_back(
+          {pair, 2 * pair, 2 * pair + 1, 2 * pair, 2 * pair + 1, own_image, ContactSet<GrainGrain>::apart});
   }
 
   void search_all()

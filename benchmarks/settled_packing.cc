@@ -142,8 +142,8 @@ std::unique_ptr<dem::Simulation> widened(const dem::Simulation &pressed, const d
   parameters.verlet_distance = sand_parameters().verlet_distance;
   dem::Particles particles;
   for (std::size_t i = 0; i < pressed.particles.size(); ++i)
-    particles.add(pressed.particles.parts.shape[i], parameters.grain().density, (1. + strain) * pressed.particles.position[i],
-                  pressed.particles.orientation[i]);
+    particles.add(pressed.particles.parts.shape[i], parameters.grain().density,
+                  (1. + strain) * pressed.particles.position[i], pressed.particles.orientation[i]);
   dem::Box box = dem::box_between(pressed.walls);
   box.low *= 1. + strain;
   box.high *= 1. + strain;

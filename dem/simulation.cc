@@ -22,7 +22,7 @@ Simulation::Simulation(const SimulationParameters &parameters, Particles new_par
 {
   p.validate();
   if (particles.size() == 0)
-    throw ConfigError("a simulation needs at least one grain");
+    throw ConfigError("the number of grains is 0: a simulation needs at least one grain");
   particles.check(p.materials.size());
   particles.cell.validate();
   for (const PlaneWall &wall : walls)
@@ -58,7 +58,8 @@ void Simulation::change(const SimulationParameters &parameters)
             "Young's modulus, Poisson's ratio or density of a material of a simulation that goes on: modulus",
             now[m].young_modulus, "as at its start: begin a new simulation for another material");
   if (particles.cell.is_periodic())
-    require(parameters.gravity == Vec3::Zero(), "gravity in a periodic cell", parameters.gravity.norm(), "zero [m/s^2]");
+    require(parameters.gravity == Vec3::Zero(), "gravity in a periodic cell", parameters.gravity.norm(),
+            "zero [m/s^2]");
   accounts.start_potential +=
       gravity_potential(particles, parameters.gravity) - gravity_potential(particles, p.gravity);
   const bool has_other_range = parameters.verlet_distance != p.verlet_distance;

@@ -22,7 +22,6 @@ class StateReader;
 namespace bergamo::dem
 {
 
-
 /// What left a simulation or came into it.
 struct Exchange
 {

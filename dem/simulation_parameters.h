@@ -1,8 +1,8 @@
 #pragma once
 
+#include "dem/core/types.h"
 #include "dem/force/contact_parameters.h"
 #include "dem/state/material.h"
-#include "dem/core/types.h"
 
 #include <cstdint>
 

@@ -24,7 +24,7 @@ inline std::span<const double> view(const dealii::Vector<double> &vector)
 /// deal.II's inverse mapping, V_IJ by Gauss quadrature.
 /// @param id, position [m], volume [m^3] of the grains in their reference configuration
 /// @throws ConfigError (Overlap::validate) where a node is reached by no grain or nothing overlaps
-Overlap make_overlap(const fe::ExplicitBody &body, std::span<const std::int64_t> id,
-                     std::span<const Vec3> position, std::span<const double> volume);
+Overlap make_overlap(const fe::ExplicitBody &body, std::span<const std::int64_t> id, std::span<const Vec3> position,
+                     std::span<const double> volume);
 
 } // namespace bergamo::coupling

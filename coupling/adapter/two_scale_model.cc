@@ -70,8 +70,7 @@ void TwoScaleModel::compute_forces()
   dem::Particles &p = grains_->particles;
   const Overlap &overlap = coupling_->overlap();
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-    particle_displacement_[k] =
-        p.position[grains_->index_of(overlap.particle_id[k])] - overlap.reference_position[k];
+    particle_displacement_[k] = p.position[grains_->index_of(overlap.particle_id[k])] - overlap.reference_position[k];
   penalty_state_ = coupling_->compute(particle_displacement_, view(std::as_const(*body_).displacement()),
                                       particle_force_, view(body_->external_force()));
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)

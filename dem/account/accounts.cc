@@ -76,8 +76,7 @@ double gravity_potential(const Particles &p, const Vec3 &gravity)
   return sum;
 }
 
-double kinetic_energy(const Particles &p, const std::size_t i, const Vec3 &field_acceleration,
-                      const StepLengths &steps)
+double kinetic_energy(const Particles &p, const std::size_t i, const Vec3 &field_acceleration, const StepLengths &steps)
 {
   const double mass = p.weight[i] * p.mass[i], kick = steps.next_kick;
   const Vec3 &v = p.velocity[i];

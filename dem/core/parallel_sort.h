@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace bergamo::dem
+namespace bergamo
 {
 
 /// Sorts by runs, one a thread, which are merged two by two.
@@ -33,4 +33,4 @@ void parallel_sort(std::vector<T> &values, const ComesFirst &comes_first)
                     });
 }
 
-} // namespace bergamo::dem
+} // namespace bergamo

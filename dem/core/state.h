@@ -18,8 +18,8 @@
 ///
 ///   template <class Self, class Visit> static void visit_state(Self &self, Visit &visit)
 ///   {
-///     visit("time", self.time);        // numbers, vectors of numbers or of plain structs of doubles, other such objects
-///     if constexpr (Visit::is_reading) // what follows from the state is made anew
+///     visit("time", self.time);        // numbers, vectors of numbers or of plain structs of doubles, other such
+///     objects if constexpr (Visit::is_reading) // what follows from the state is made anew
 ///       ...
 ///   }
 namespace bergamo
@@ -37,7 +37,10 @@ struct AnyVisit
 };
 
 template <class T>
-concept HasState = requires(T &object, AnyVisit &visit) { std::remove_const_t<T>::visit_state(object, visit); };
+concept HasState = requires(T &object, AnyVisit &visit)
+{
+  std::remove_const_t<T>::visit_state(object, visit);
+};
 
 template <class T>
 std::span<const double> as_doubles(const T *values, const std::size_t n)

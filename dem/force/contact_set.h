@@ -43,8 +43,7 @@ public:
   void reorder(const std::vector<std::int32_t> &new_part, std::size_t n_parts);
 
   /// Drops all contacts of one wall at the next renewal, whose history is then booked as loss; later walls move up.
-  void remove_wall(std::int32_t wall)
-    requires Kind::second_is_wall;
+  void remove_wall(std::int32_t wall) requires Kind::second_is_wall;
 
   /// Brings every contact to this step.
   void compute(const ContactScene &scene, PhaseTimes &times);

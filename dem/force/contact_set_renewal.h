@@ -163,8 +163,7 @@ void ContactSet<Kind>::reorder(const std::vector<std::int32_t> &new_part, const 
 }
 
 template <class Kind>
-void ContactSet<Kind>::remove_wall(const std::int32_t wall)
-  requires Kind::second_is_wall
+void ContactSet<Kind>::remove_wall(const std::int32_t wall) requires Kind::second_is_wall
 {
   for (std::int32_t &second : list.second)
     if (second == wall)

@@ -17,11 +17,11 @@ void ContactSet<Kind>::compute(const ContactScene &scene, PhaseTimes &times)
   Stopwatch watch;
   const Particles &p = scene.particles;
   list_bodies(p.size(), scene.walls.size());
-  const std::vector<std::int32_t> due_slots =
-      follow_all(store, loads, losses,
-                 [&](const std::size_t block, Losses<Pack> &lost)
-                 { return Kind::follow_block(store, loads, block, scene, lost); })
-          .all();
+  const std::vector<std::int32_t> due_slots = follow_all(store, loads, losses,
+                                                         [&](const std::size_t block, Losses<Pack> &lost) {
+                                                           return Kind::follow_block(store, loads, block, scene, lost);
+                                                         })
+                                                  .all();
   watch.lap(times.contacts);
 
   const std::vector<std::int32_t> candidates = screen(scene);
@@ -49,8 +49,7 @@ std::vector<std::int32_t> ContactSet<Kind>::screen(const ContactScene &scene) co
                     for (std::size_t pack = begin; pack < end; ++pack)
                     {
                       const std::size_t pair = pack * pack_width;
-                      const Pack motion =
-                          math::generate<Pack>([&](const int lane) { return travelled(pair + lane); });
+                      const Pack motion = math::generate<Pack>([&](const int lane) { return travelled(pair + lane); });
                       const math::Mask<Pack> is_at_rest = motion < math::load(&rest_until[pair]);
                       if (!math::any(!is_at_rest))
                         continue;
@@ -78,39 +77,38 @@ typename ContactSet<Kind>::Found ContactSet<Kind>::search(const std::vector<std:
   Collected<std::int64_t> undecided;
   std::vector<ContactLosses> group_losses(n_groups);
   const SearchContext<Kind> context{scene, store, hint};
-  parallel_ranges(
-      n_groups, 1,
-      [&](const std::size_t part, const std::size_t begin, const std::size_t end)
-      {
-        std::vector<ContactSearch> searches;
-        std::vector<BegunContact<Kind>> begun;
-        for (std::size_t group = begin; group < end; ++group)
-        {
-          const std::size_t from = group * Kind::search_group, to = std::min(from + Kind::search_group, n);
-          searches.clear();
-          begun.clear();
-          for (std::size_t k = from; k < to; ++k)
-            searches.push_back(place_of(k < due_slots.size() ? store.pair[due_slots[k]]
-                                                             : candidates[k - due_slots.size()],
-                                        scene.particles));
-          Kind::search(searches, context, group_losses[group], begun);
-          for (std::size_t k = from; k < to; ++k)
-          {
-            const ContactSearch &s = searches[k - from];
-            if (s.is_undecided)
-              undecided.of(part).push_back(s.pair);
-            if (k < due_slots.size())
-              due_loads[k] = {s.resultant, s.is_touching};
-            if (s.is_touching)
-              continue;
-            rest_until[s.pair] = Kind::travelled(scene, s.first_part, s.second_part) + s.gap;
-            if (s.slot != apart)
-              found.ended.of(part).push_back(s);
-          }
-          for (const BegunContact<Kind> &c : begun)
-            found.begun.of(part).push_back({searches[c.search], c.state});
-        }
-      });
+  parallel_ranges(n_groups, 1,
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
+                  {
+                    std::vector<ContactSearch> searches;
+                    std::vector<BegunContact<Kind>> begun;
+                    for (std::size_t group = begin; group < end; ++group)
+                    {
+                      const std::size_t from = group * Kind::search_group, to = std::min(from + Kind::search_group, n);
+                      searches.clear();
+                      begun.clear();
+                      for (std::size_t k = from; k < to; ++k)
+                        searches.push_back(
+                            place_of(k < due_slots.size() ? store.pair[due_slots[k]] : candidates[k - due_slots.size()],
+                                     scene.particles));
+                      Kind::search(searches, context, group_losses[group], begun);
+                      for (std::size_t k = from; k < to; ++k)
+                      {
+                        const ContactSearch &s = searches[k - from];
+                        if (s.is_undecided)
+                          undecided.of(part).push_back(s.pair);
+                        if (k < due_slots.size())
+                          due_loads[k] = {s.resultant, s.is_touching};
+                        if (s.is_touching)
+                          continue;
+                        rest_until[s.pair] = Kind::travelled(scene, s.first_part, s.second_part) + s.gap;
+                        if (s.slot != apart)
+                          found.ended.of(part).push_back(s);
+                      }
+                      for (const BegunContact<Kind> &c : begun)
+                        found.begun.of(part).push_back({searches[c.search], c.state});
+                    }
+                  });
   for (const ContactLosses &lost : group_losses)
     losses += lost;
   n_searches += static_cast<std::int64_t>(n);

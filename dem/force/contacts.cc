@@ -15,8 +15,8 @@ std::vector<ContactLaw> contact_laws(const MaterialTable &materials)
     for (std::int32_t first = 0; first <= second; ++first)
     {
       const SurfacePair &pair = materials.between(first, second);
-      laws.push_back({elastic_pair(materials[first], materials[second]), pair.friction, pair.damping_ratio,
-                      pair.relaxation_time});
+      laws.push_back(
+          {elastic_pair(materials[first], materials[second]), pair.friction, pair.damping_ratio, pair.relaxation_time});
     }
   return laws;
 }
@@ -35,10 +35,9 @@ void Contacts::renew(const Particles &particles, const std::vector<PlaneWall> &w
   const auto law_of_parts = [&](const std::int32_t i, const std::int32_t j)
   { return MaterialTable::pair_number(parts.material[i], parts.material[j]); };
 
-  std::vector<VerletList> lists =
-      split(near_parts(particles, range), 2 * n_laws,
-            [&](const std::int32_t i, const std::int32_t j)
-            { return (is_sphere[i] && is_sphere[j] ? n_laws : 0) + law_of_parts(i, j); });
+  std::vector<VerletList> lists = split(near_parts(particles, range), 2 * n_laws,
+                                        [&](const std::int32_t i, const std::int32_t j)
+                                        { return (is_sphere[i] && is_sphere[j] ? n_laws : 0) + law_of_parts(i, j); });
   for (std::size_t law = 0; law < n_laws; ++law)
   {
     grain_grain[law].renew(std::move(lists[law]), particles);
@@ -70,8 +69,10 @@ void Contacts::remove_wall(const std::int32_t wall)
 void Contacts::compute(const Particles &particles, const std::vector<PlaneWall> &walls, const ContactStep &step,
                        PhaseTimes &times)
 {
-  for_each_set(*this, [&](auto &set, const std::int32_t law)
-               { set.compute({particles, walls, step.laws[law], step.parameters, step.time_step}, times); });
+  for_each_set(*this,
+               [&](auto &set, const std::int32_t law) {
+                 set.compute({particles, walls, step.laws[law], step.parameters, step.time_step}, times);
+               });
 }
 
 BodyLoad Contacts::load_of_wall(const std::size_t wall, const std::size_t n_particles) const

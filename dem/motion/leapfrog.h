@@ -14,8 +14,8 @@ struct AccelerationField
   Vec3 at(const Vec3 &x) const { return constant + gradient.cwiseProduct(x); }
 };
 
-/// One leapfrog step of all grains: kick, turn and drift (Wellmann 3.32-3.44) in one pass over the memory. Velocities go
-/// from the half step before to the half step after, places and orientations to the next step.
+/// One leapfrog step of all grains: kick, turn and drift (Wellmann 3.32-3.44) in one pass over the memory. Velocities
+/// go from the half step before to the half step after, places and orientations to the next step.
 /// @param kick between the half steps: the mean of the step before and the step to come [s]
 /// @param drift the step to come [s]
 /// @return false if any state would not be finite any more; such grains stay, with those beside them, at the old step

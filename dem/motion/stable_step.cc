@@ -66,8 +66,8 @@ public:
       }
       const Vec3 half_line = 0.5 * contact.branch;
       const Vec3 arm1 = s.point + half_line, arm2 = s.point - half_line;
-      const Vec3 f = force_of(
-          s, law, x.translation[i] + x.rotation[i].cross(arm1) - x.translation[j] - x.rotation[j].cross(arm2));
+      const Vec3 f =
+          force_of(s, law, x.translation[i] + x.rotation[i].cross(arm1) - x.translation[j] - x.rotation[j].cross(arm2));
       y.translation[i] += f;
       y.translation[j] -= f;
       y.rotation[i] += arm1.cross(f);

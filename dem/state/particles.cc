@@ -33,8 +33,8 @@ void append_entries(Fields &fields, const Fields &others, const std::size_t begi
   Fields::visit_fields(fields,
                        [&](const char *, auto &values)
                        {
-                         const auto &source = *static_cast<std::remove_reference_t<decltype(values)> const *>(
-                             sources[field++]);
+                         const auto &source =
+                             *static_cast<std::remove_reference_t<decltype(values)> const *>(sources[field++]);
                          if (!source.empty())
                            values.insert(values.end(), source.begin() + begin, source.begin() + end);
                        });
@@ -117,7 +117,8 @@ void Particles::check(const std::int32_t n_materials) const
                  if (name != "external_force" || !values.empty())
                    check_length(name.c_str(), values.size(), n);
                });
-  Parts::visit_fields(parts, [&](const char *name, const auto &values) { check_length(name, values.size(), parts.size()); });
+  Parts::visit_fields(parts,
+                      [&](const char *name, const auto &values) { check_length(name, values.size(), parts.size()); });
   check_length("first_part", first_part.size() - 1, n);
   for (std::size_t i = 0; i < n; ++i)
   {

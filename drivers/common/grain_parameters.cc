@@ -25,8 +25,8 @@ void declare_grains(ParameterFile &file, dem::SimulationParameters &simulation)
   file.add("Grains", "Poisson's ratio", simulation.grain().poisson_ratio, "of the grains' mineral",
            {.lowest = 0, .highest = 0.5, .highest_included = false});
   file.add("Grains", "density", simulation.grain().density, "of the grains' mineral [kg/m3]", Range::positive());
-  file.add("Grains", "damping ratio", simulation.between_grains().damping_ratio, "dashpot at the contacts, share of critical damping",
-           Range::between(0, 10));
+  file.add("Grains", "damping ratio", simulation.between_grains().damping_ratio,
+           "dashpot at the contacts, share of critical damping", Range::between(0, 10));
   file.add("Grains", "curvature bound", simulation.contact.curvature_bound,
            "k: radii of curvature at contacts lie in [k r_min, r_max / k], r the half-axes of the grain",
            {.lowest = 0, .highest = 1, .lowest_included = false});

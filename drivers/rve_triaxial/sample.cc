@@ -234,7 +234,8 @@ void SampleRun::record()
   s.check_finite();
   const std::vector<dem::TouchingContact> contacts = s.contacts.touching(s.particles);
   const double volume = s.particles.cell.volume();
-  const dem::AssemblyMeasures m = dem::measure_assembly(s.particles, contacts, {}, s.parameters().between_grains().friction, volume);
+  const dem::AssemblyMeasures m =
+      dem::measure_assembly(s.particles, contacts, {}, s.parameters().between_grains().friction, volume);
   const dem::GrainEnergy e = s.energy();
   if (s.n_steps == 0)
     first_balance = e.balance();

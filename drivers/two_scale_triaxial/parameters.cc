@@ -31,8 +31,8 @@ void TriaxialParameters::declare(ParameterFile &file)
 
   declare_distribution(file, "Grains", distribution);
   declare_grains(file, simulation);
-  file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient between grains during the loading",
-           Range::non_negative());
+  file.add("Grains", "friction", simulation.between_grains().friction,
+           "Coulomb's coefficient between grains during the loading", Range::non_negative());
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
   file.add("Packing", "seed", seed, "of all random numbers");
@@ -121,7 +121,8 @@ void TriaxialParameters::validate() const
     dem::Superquadric smallest{Vec3::Constant(distribution.smallest_half_axis), 1., 1.};
     const double mass = simulation.grain().density * dem::volume(smallest);
     const double radius = distribution.smallest_half_axis;
-    const double modulus = 0.5 * simulation.grain().young_modulus / (1. - std::pow(simulation.grain().poisson_ratio, 2));
+    const double modulus =
+        0.5 * simulation.grain().young_modulus / (1. - std::pow(simulation.grain().poisson_ratio, 2));
     const double stiffness = 2. * modulus * std::sqrt(0.5 * radius * 1e-5 * radius);
     const double limit = 2. * std::sqrt(0.5 * mass / stiffness);
     for (const auto &[name, step] :

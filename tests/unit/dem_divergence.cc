@@ -3,8 +3,8 @@
 
 #include "tests/threads.h"
 
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <functional>
 #include <limits>
 #include <sstream>

@@ -19,7 +19,8 @@ TEST_CASE("rows hold what was put into them, in the order in which it was put")
     row[k] = random() % (n_rows - 3) + 1; // the first and the last rows stay empty
     expected[row[k]].push_back(static_cast<int>(k));
   }
-  const Rows<int> rows(n_rows, [&](const auto &put)
+  const Rows<int> rows(n_rows,
+                       [&](const auto &put)
                        {
                          for (std::size_t k = 0; k < n_entries; ++k)
                            put(row[k], static_cast<int>(k));

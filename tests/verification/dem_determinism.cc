@@ -268,7 +268,8 @@ TEST_CASE("pouring grains have the same bits in whatever order they came")
   std::shuffle(came.begin(), came.end(), generator);
   for (const std::size_t i : came)
   {
-    pouring.grains.add(grains.parts.shape[i], pouring.parameters.grain().density, grains.position[i], grains.orientation[i]);
+    pouring.grains.add(grains.parts.shape[i], pouring.parameters.grain().density, grains.position[i],
+                       grains.orientation[i]);
     pouring.grains.orientation.back() = grains.orientation[i]; // not normalised once more
   }
   Simulation s = pouring.begin();
@@ -427,8 +428,7 @@ TEST_CASE("the Verlet distance changes the work but not the forces")
   std::vector<double> differences;
   for (std::int64_t id = 0; id < static_cast<std::int64_t>(runs[0].particles.size()); ++id)
     differences.push_back(
-        (runs[0].particles.position[runs[0].index_of(id)] - runs[1].particles.position[runs[1].index_of(id)])
-            .norm());
+        (runs[0].particles.position[runs[0].index_of(id)] - runs[1].particles.position[runs[1].index_of(id)]).norm());
   std::sort(differences.begin(), differences.end());
   CHECK(differences[differences.size() / 2] < 1e-9 * box_edge);
   CHECK(differences.back() < 1e-9);

@@ -44,7 +44,8 @@ std::vector<Vec3> surface_of(const Particles &p, const std::size_t i)
   std::vector<Vec3> points;
   for (int j = -16; j <= 16; ++j)
     for (int k = -16; k < 16; ++k)
-      points.push_back(p.position[i] + p.orientation[i] * surface_point(p.parts.shape[i], 0.5 * pi * j / 16, pi * k / 16));
+      points.push_back(p.position[i] +
+                       p.orientation[i] * surface_point(p.parts.shape[i], 0.5 * pi * j / 16, pi * k / 16));
   return points;
 }
 

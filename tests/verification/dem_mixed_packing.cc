@@ -85,7 +85,8 @@ TEST_CASE("spheres move the same by their own path and as superquadrics of expon
   const auto is_sphere = [](const Superquadric &shape) { return shape.is_sphere(); };
   REQUIRE(2 * std::count_if(spheres.particles.parts.shape.begin(), spheres.particles.parts.shape.end(), is_sphere) >=
           static_cast<int>(n));
-  REQUIRE(std::none_of(superquadrics.particles.parts.shape.begin(), superquadrics.particles.parts.shape.end(), is_sphere));
+  REQUIRE(
+      std::none_of(superquadrics.particles.parts.shape.begin(), superquadrics.particles.parts.shape.end(), is_sphere));
   for (int i = 0; i < 3000; ++i)
   {
     spheres.step();

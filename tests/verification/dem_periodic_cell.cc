@@ -225,7 +225,8 @@ TEST_CASE("a cell copied 2 x 2 x 2 has the same stress")
   {
     const Vec3 shift = Vec3(image & 1, image >> 1 & 1, image >> 2 & 1).cwiseProduct(edges);
     for (std::size_t i = 0; i < single.particles.size(); ++i)
-      many.add(single.particles.parts.shape[i], 2650., single.particles.position[i] + shift, single.particles.orientation[i]);
+      many.add(single.particles.parts.shape[i], 2650., single.particles.position[i] + shift,
+               single.particles.orientation[i]);
   }
   many.cell = PeriodicCell(2. * edges);
   Simulation copied(sand(), many, {});

@@ -44,8 +44,8 @@ Simulation sliding_grains()
   p.gravity = Vec3(1., 0.5, -9.81);
   Particles grains;
   grains.add(nearly_a_sphere, p.grain().density, Vec3(0., 0., 0.9495 * radius), Quaternion::Identity());
-  grains.add(sphere, p.grain().density, Vec3(2.0495 * radius, 0., 0.9995 * radius), Quaternion::Identity());
-  grains.add(sphere, p.grain().density, Vec3(4.049 * radius, 0., 0.9995 * radius), Quaternion::Identity());
+  grains.add(sphere, p.grain().density, Vec3(2.048 * radius, 0., 0.9995 * radius), Quaternion::Identity());
+  grains.add(sphere, p.grain().density, Vec3(4.0475 * radius, 0., 0.9995 * radius), Quaternion::Identity());
   grains.velocity[1] = Vec3(0., 2e-3, 0.);
   return Simulation(p, grains, {floor_at(0.)});
 }
@@ -90,8 +90,7 @@ TEST_CASE("a sphere sheared on a wall feels the tangential stiffness times the w
   Particles grains;
   grains.add(sphere, 1e15, Vec3(0., 0., radius - overlap), Quaternion::Identity()); // too heavy to move
   const double shear_modulus = p.grain().young_modulus / (2. * (1. + p.grain().poisson_ratio));
-  const double stiffness =
-      4. * shear_modulus * std::sqrt(radius * overlap) / (2. - p.grain().poisson_ratio);
+  const double stiffness = 4. * shear_modulus * std::sqrt(radius * overlap) / (2. - p.grain().poisson_ratio);
   for (const int asked_every : {1, 10, 1000})
   {
     Simulation s(p, grains, {floor_at(0.)});

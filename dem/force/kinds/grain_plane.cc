@@ -76,8 +76,7 @@ void locate(ContactSearch &search, const ContactScene &scene, ContactState<doubl
   s.weight = p.weight[search.first];
   s.reduced_mass = p.mass[search.first]; // the wall is infinitely heavy
   losses.curvature += curvature_work(before, s, old_overlap);
-  const Vec3 force =
-      advance_contact(s, scene.law, old_overlap, motion.displacement(s.point), scene.time_step, losses);
+  const Vec3 force = advance_contact(s, scene.law, old_overlap, motion.displacement(s.point), scene.time_step, losses);
   search.resultant = {force, s.point.cross(force), Vec3::Zero()};
 }
 

@@ -99,8 +99,8 @@ void SphereSphere::refresh(Store &store, const Particles &p)
     {
       State state = store.get(static_cast<std::int32_t>(slot));
       const double radius1 = 0.5 * (state.radius_sum + state.radius_difference);
-      state.weight = weight_of(p.weight[store.first[slot]], p.weight[store.second[slot]], radius1,
-                               state.radius_sum - radius1);
+      state.weight =
+          weight_of(p.weight[store.first[slot]], p.weight[store.second[slot]], radius1, state.radius_sum - radius1);
       store.set(static_cast<std::int32_t>(slot), state);
     }
 }
