@@ -8,6 +8,7 @@ import csv
 import json
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -213,7 +214,7 @@ class Failures(Case):
         full.mkdir()
         size = (out / "snapshot.h5").stat().st_size + 100_000
         inside = f"""mount -t tmpfs -o size={size} none {full} && cp {out}/* {full} || exit 99
-            {' '.join(self.command(full, "--restart"))}; status=$?
+            {shlex.join(self.command(full, "--restart"))}; status=$?
             cmp {out}/snapshot.h5 {full}/snapshot.h5 || exit 98
             exit $status"""
         result = subprocess.run(["unshare", "--map-root-user", "--mount", "bash", "-c", inside],
