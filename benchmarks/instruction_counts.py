@@ -3,7 +3,7 @@
 instruction_counts.json: the same on every machine with this compiler and these libraries, whatever else runs there.
 
 Prints kernel, instructions kept and now per item (contact, pair or grain) and the change; ends with status 1 if one
-grew by more than 5 %, with 77 if the counts kept are another compiler's.
+grew by more than 5 %, with 77 if the counts kept are another compiler's or another width's.
 Usage: instruction_counts.py PROGRAM             compare
        instruction_counts.py PROGRAM --update    keep what is counted now
        instruction_counts.py PROGRAM --split KERNEL   where the instructions of one kernel are, by function of dem/
@@ -14,6 +14,7 @@ import collections
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -28,6 +29,9 @@ ENVIRONMENT = {"PATH": os.environ.get("PATH", ""), "LD_BIND_NOW": "1", "OMP_NUM_
 
 def output_of(command):
     done = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    if done.returncode == -signal.SIGILL:
+        print("this processor lacks the instructions that the counts are of (x86-64-v3): not compared")
+        sys.exit(SKIPPED)
     if done.returncode != 0:
         sys.exit(f"error: {' '.join(command)} ended with status {done.returncode}\n{done.stderr}")
     return done.stdout

@@ -75,7 +75,7 @@ class Case(unittest.TestCase):
     def fit(self, *settings, options=("--no-plots", "--quiet"), prm=DRIVERS / "fit_mohr_coulomb/fit_mohr_coulomb.prm"):
         words = [word for setting in (f"Ensemble/folder={self.ensemble}", *settings) for word in ("--set", setting)]
         return subprocess.run([str(PROGRAM), str(prm), "--output", str(self.out), *words, *options],
-                              capture_output=True, text=True, timeout=300)
+                              capture_output=True, text=True)
 
     def fitted(self, *settings, **kwargs):
         result = self.fit(*settings, **kwargs)
@@ -173,7 +173,7 @@ class Results(Case):
         prm, run = self.out / "continuum.prm", self.tmp / "run"
         smoke = DRIVERS / "two_scale_triaxial/smoke.prm"
         result = subprocess.run([str(TWO_SCALE), str(smoke), str(prm), "--set", "Model/kind=continuum", "--output", str(run),
-                                 "--no-plots", "--quiet"], capture_output=True, text=True, timeout=300)
+                                 "--no-plots", "--quiet"], capture_output=True, text=True)
         self.assertEqual(result.returncode, 0, result.stderr)
         used = (run / "parameters.prm").read_text()
         section = used[used.index("subsection Continuum"):]
@@ -289,7 +289,7 @@ class BadInput(Case):
     def test_parameter_files(self):
         """What the program prints as defaults, and every parameter file of the driver, is read."""
         printed = self.tmp / "printed.prm"
-        result = subprocess.run([str(PROGRAM), "--print-parameters"], capture_output=True, text=True, timeout=60)
+        result = subprocess.run([str(PROGRAM), "--print-parameters"], capture_output=True, text=True)
         printed.write_text(result.stdout)
         self.write([(50e3, curve(50e3, 60e6, 23, 5))])
         files = [printed, *sorted((DRIVERS / "fit_mohr_coulomb").glob("*.prm"))]

@@ -12,9 +12,10 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
+
+from driver_process import SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 SMOKE = Path(__file__).resolve().parents[2] / "drivers" / "rve_triaxial" / "smoke.prm"
@@ -30,7 +31,7 @@ class Case(unittest.TestCase):
         return [str(PROGRAM), str(SMOKE), "--output", str(output), "--no-plots", "--quiet", *options]
 
     def run_driver(self, output, *options):
-        return subprocess.run(self.command(output, *options), capture_output=True, text=True, timeout=600)
+        return subprocess.run(self.command(output, *options), capture_output=True, text=True)
 
     def assert_refused(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
@@ -134,15 +135,13 @@ class Restart(Case):
         """Killed twice, and stopped by Ctrl-C once: what it gives in the end is the same to the last bit."""
         whole, parts = self.tmp / "whole", self.tmp / "parts"
         self.assertEqual(self.run_driver(whole).returncode, 0)
-        often = ["--set", "Output/snapshot interval=0.3"]
-        self.assertEqual(self.run_driver(whole, *often, "--force").returncode, 0)
-        options = list(often)
-        for send in (signal.SIGKILL, signal.SIGKILL, signal.SIGINT):
-            process = subprocess.Popen(self.command(parts, *options), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-            time.sleep(2.5)
-            process.send_signal(send)
-            process.communicate()
-            options = [*often, "--restart"]
+        sample = parts / "samples" / "0001"
+        options = list(SNAPSHOTS_BY_STEPS)
+        for stage, send in ((0, signal.SIGKILL), (1, signal.SIGKILL), (2, signal.SIGINT)):
+            has_snapshot = renewal(sample / "snapshot.h5")
+            stop_when(lambda: has_snapshot() and n_rows(sample / "history.csv", lambda row: row[1] == str(stage)) > 0,
+                      self.command(parts, *options), send)
+            options = [*SNAPSHOTS_BY_STEPS, "--restart"]
         result = self.run_driver(parts, *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assert_same_results(whole, parts)
@@ -154,13 +153,9 @@ class Restart(Case):
     def test_damaged_snapshot(self):
         """A sample whose snapshot is damaged is named; the other one is finished."""
         out = self.tmp / "run"
-        options = ["--threads", "1", "--set", "Output/snapshot interval=0.3"]
-        process = subprocess.Popen(self.command(out, *options), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        options = ["--threads", "1", *SNAPSHOTS_BY_STEPS]
         snapshot = out / "samples" / "0001" / "snapshot.h5"
-        while not snapshot.exists() and process.poll() is None:
-            time.sleep(0.05)
-        process.kill()
-        process.communicate()
+        stop_when(snapshot.exists, self.command(out, *options))
         data = bytearray(snapshot.read_bytes())
         data[len(data) // 2] ^= 1
         snapshot.write_bytes(data)
@@ -170,18 +165,17 @@ class Restart(Case):
         self.assertIn("snapshot.h5", result.stderr)
         self.assertEqual([row["finished"] for row in numbers(out / "ensemble.csv")], [0, 1])
 
-
     def test_full_disk(self):
         """A file system too small for a snapshot: one message, the table of samples stays whole."""
         full = self.tmp / "full"
         full.mkdir()
-        settings = ["--set", "Output/snapshot interval=0.3", "--threads", "1"]
+        settings = [*SNAPSHOTS_BY_STEPS, "--threads", "1"]
         inside = f"""mount -t tmpfs -o size=200k none {full} || exit 99
             {' '.join(shlex.quote(word) for word in self.command(full, '--force', *settings))}; status=$?
             cp -r {full} {self.tmp}/kept
             exit $status"""
         result = subprocess.run(["unshare", "--map-root-user", "--mount", "bash", "-c", inside],
-                                capture_output=True, text=True, timeout=600)
+                                capture_output=True, text=True)
         if result.returncode == 99 or "unshare" in result.stderr:
             self.skipTest("this machine allows no mounts: " + result.stderr)
         self.assertEqual(result.returncode, 1, result.stderr)

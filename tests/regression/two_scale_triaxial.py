@@ -8,14 +8,16 @@ import csv
 import json
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
+
+from driver_process import SNAPSHOTS_BY_STEPS, n_rows, stop_when
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 FOLDER = Path(__file__).resolve().parents[2] / "drivers" / "two_scale_triaxial"
@@ -31,7 +33,7 @@ class Case(unittest.TestCase):
         return [str(PROGRAM), str(prm), "--output", str(output), "--no-plots", "--quiet", *options]
 
     def run_driver(self, output, *options, prm=SMOKE, **kwargs):
-        return subprocess.run(self.command(output, *options, prm=prm), capture_output=True, text=True, timeout=300, **kwargs)
+        return subprocess.run(self.command(output, *options, prm=prm), capture_output=True, text=True, **kwargs)
 
     def assert_refused(self, result, *words, code=2):
         """One clear message with these words, and nothing of the machinery behind it."""
@@ -100,21 +102,11 @@ class Restart(Case):
         """kill -9 in the loading, then --restart on another number of threads: the files are those of a run in one go."""
         whole, killed = self.tmp / "whole", self.tmp / "killed"
         self.assertEqual(self.run_driver(whole, "--threads", "1").returncode, 0)
-        process = subprocess.Popen(self.command(killed, "--threads", "2"), stderr=subprocess.DEVNULL)
-        deadline = time.time() + 200
-        while time.time() < deadline and process.poll() is None:
-            try:
-                enough = len((killed / "history.csv").read_text().splitlines()) > 25
-            except OSError:
-                enough = False
-            if enough:
-                break
-            time.sleep(0.01)
-        process.send_signal(signal.SIGKILL)
-        process.wait()
+        options = [*SNAPSHOTS_BY_STEPS, "--threads", "2"]
+        stop_when(lambda: n_rows(killed / "history.csv") > 25, self.command(killed, *options))
         self.assertFalse((killed / "summary.json").exists())
         self.assertTrue((killed / "snapshot.h5").exists())
-        result = self.run_driver(killed, "--restart", "--threads", "3")
+        result = self.run_driver(killed, *SNAPSHOTS_BY_STEPS, "--restart", "--threads", "3")
         self.assertEqual(result.returncode, 0, result.stderr)
         for name in ("history.csv", "grains_0000.vtu", "grains_0001.vtu"):
             self.assertEqual((whole / name).read_bytes(), (killed / name).read_bytes(), name)
@@ -125,13 +117,8 @@ class Restart(Case):
     def test_interrupt(self):
         """Ctrl-C ends the step, writes a snapshot and says how to go on."""
         out = self.tmp / "run"
-        process = subprocess.Popen(self.command(out), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        while not (out / "parameters.prm").exists():
-            time.sleep(0.05)
-        process.send_signal(signal.SIGINT)
-        stdout, _ = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130)
-        self.assertIn("--restart", stdout)
+        result = stop_when((out / "parameters.prm").exists, self.command(out), signal.SIGINT)
+        self.assertIn("--restart", result.stdout)
         self.assertTrue((out / "snapshot.h5").exists())
         self.assertEqual(self.run_driver(out, "--restart").returncode, 0)
 
@@ -202,11 +189,7 @@ class Failures(Case):
     def finished_packing(self):
         """A run that was stopped early, with its snapshot."""
         out = self.tmp / "run"
-        process = subprocess.Popen(self.command(out), stdout=subprocess.DEVNULL)
-        while not (out / "snapshot.h5").exists():
-            time.sleep(0.05)
-        process.send_signal(signal.SIGINT)
-        process.wait()
+        stop_when((out / "parameters.prm").exists, self.command(out), signal.SIGINT)
         return out
 
     def test_damaged_and_foreign_snapshots(self):
@@ -231,11 +214,11 @@ class Failures(Case):
         full.mkdir()
         size = (out / "snapshot.h5").stat().st_size + 100_000
         inside = f"""mount -t tmpfs -o size={size} none {full} && cp {out}/* {full} || exit 99
-            {' '.join(self.command(full, "--restart"))}; status=$?
+            {shlex.join(self.command(full, "--restart"))}; status=$?
             cmp {out}/snapshot.h5 {full}/snapshot.h5 || exit 98
             exit $status"""
         result = subprocess.run(["unshare", "--map-root-user", "--mount", "bash", "-c", inside],
-                                capture_output=True, text=True, timeout=300)
+                                capture_output=True, text=True)
         if result.returncode == 99 or "unshare" in result.stderr:
             self.skipTest("this machine allows no mounts: " + result.stderr)
         self.assert_refused(result, str(full), "No space left", code=1)

@@ -4,6 +4,8 @@
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/output.h"
 
+#include "tests/temporary_folder.h"
+
 #include <deal.II/grid/tria.h>
 
 #include <catch2/catch.hpp>
@@ -129,9 +131,7 @@ TEST_CASE("Mesh and body: user's mistakes are named", "[fe]")
 
 TEST_CASE("VTU output: all fields, no leftovers, a clear error", "[fe]")
 {
-  const auto folder = std::filesystem::temp_directory_path() / "bergamo_fe_output";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directory(folder);
+  const TemporaryFolder folder;
   ExplicitBodyParameters parameters;
   parameters.initial_stress = uniform_pressure(1000);
   const ExplicitBody body = box({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, parameters);
@@ -141,8 +141,7 @@ TEST_CASE("VTU output: all fields, no leftovers, a clear error", "[fe]")
   for (const char *name : {"displacement", "velocity", "stress_xx", "stress_zx", "principal_stress_1", "pressure",
                            "deviatoric_stress", "yield_function", "equivalent_plastic_strain", "</VTKFile>"})
     CHECK_THAT(text, Contains(name));
-  CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
   CHECK_THROWS_AS(write_vtu(body, folder / "missing" / "body.vtu"), RunError);
   CHECK_THROWS_WITH(write_vtu(body, folder / "missing" / "body.vtu"), Contains("missing"));
-  std::filesystem::remove_all(folder);
 }

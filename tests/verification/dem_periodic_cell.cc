@@ -8,6 +8,7 @@
 #include "tests/temporary_folder.h"
 #include "tests/threads.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -121,14 +122,47 @@ double solid_fraction(const Simulation &s)
 
 TEST_CASE("a periodic cell is pressed to the pressure that is asked for")
 {
-  const auto simulation = pressed_copy();
-  const Vec3 stress = simulation->cell_stress();
-  CAPTURE(stress.transpose(), solid_fraction(*simulation), simulation->particles.cell.edges.transpose());
+  // Free grains hit the packing for long, so the stress of one step is a matter of chance; the control promises its
+  // mean. It moves the stress on the walls by the miss over a time constant, 0.03 of the rate at which the damper slows
+  // the walls, and that stress follows the grains'. Over n time constants the mean therefore misses the pressure by at
+  // most an n-th of what the stress moves by.
+  constexpr double n_time_constants = 10.;
+  const CellControlParameters walls;
+  Loaded loaded{pressed_copy(), CellControl(walls)};
+  Simulation &s = *loaded.simulation;
+  loaded.control.start_from(s.cell_stress());
+  const double inertia = walls.wall_density * walls.wall_thickness * s.particles.cell.edges.minCoeff();
+  const double rate = 0.03 * 2. * walls.damping_ratio * std::sqrt(walls.modulus / inertia);
+  const auto n_steps = static_cast<int>(std::ceil(n_time_constants / rate / s.parameters().time_step));
+  Vec3 sum = Vec3::Zero(), lowest = Vec3::Constant(INFINITY), highest = -lowest;
+  double most_kinetic = 0., least_elastic = INFINITY;
+  for (int k = 0; k < n_steps; ++k)
+  {
+    s.compute_forces();
+    loaded.act(isotropic(pressure));
+    const Vec3 stress = s.cell_stress();
+    sum += stress;
+    lowest = lowest.cwiseMin(stress);
+    highest = highest.cwiseMax(stress);
+    const GrainEnergy e = s.energy();
+    most_kinetic = std::max(most_kinetic, e.kinetic);
+    least_elastic = std::min(least_elastic, e.normal + e.tangential);
+    s.integrate();
+  }
+  // An oscillation of the kinetic energy K on springs that hold the elastic energy U moves their force by sqrt(K/U) of
+  // it; the control corrects where that is below a tenth.
+  const double agitation = std::sqrt(most_kinetic / least_elastic);
+  CHECK(agitation < 0.1);
   for (int d = 0; d < 3; ++d)
-    CHECK(stress[d] == Approx(-pressure).epsilon(1e-3));
+  {
+    CAPTURE(d, lowest[d], highest[d], sum[d] / n_steps, agitation);
+    CHECK(std::abs(sum[d] / n_steps + pressure) < (highest[d] - lowest[d]) / n_time_constants);
+    CHECK(std::max(highest[d] + pressure, -pressure - lowest[d]) < agitation * pressure);
+  }
   // Random close packings of such grains with friction lie between 0.6 and 0.72 (Wellmann, fig. 5.4).
-  CHECK(solid_fraction(*simulation) > 0.6);
-  CHECK(solid_fraction(*simulation) < 0.74);
+  CAPTURE(solid_fraction(s));
+  CHECK(solid_fraction(s) > 0.6);
+  CHECK(solid_fraction(s) < 0.74);
 }
 
 TEST_CASE("the mean stress over branches equals that over the faces up to the grains' inertia")

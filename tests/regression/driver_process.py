@@ -1,0 +1,50 @@
+"""Runs of a driver that are stopped at an event, however fast the machine is."""
+
+import os
+import signal
+import subprocess
+import time
+
+# A snapshot as often as the driver looks at the clock, so that steps decide when there is one.
+SNAPSHOTS_BY_STEPS = ["--set", "Output/snapshot interval=1e-9"]
+
+
+def stop_when(happened, command, send=signal.SIGKILL):
+    """Starts a run and sends it the signal as soon as happened() is true, which must be long before its end.
+
+    @return what it printed; AssertionError if it ended by itself
+    """
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        while process.poll() is None and not happened():
+            time.sleep(0.005)
+        process.send_signal(send)
+        stdout, stderr = process.communicate()
+    finally:
+        process.kill()
+        process.wait()
+    if process.returncode != (-send if send == signal.SIGKILL else 128 + send):
+        raise AssertionError(f"the run ended by itself, with status {process.returncode}:\n{stderr}")
+    return subprocess.CompletedProcess(command, process.returncode, stdout, stderr)
+
+
+def renewal(path):
+    """Tells from now on whether a file has appeared or was written anew."""
+    def stamp():
+        try:
+            status = os.stat(path)
+        except FileNotFoundError:
+            return None
+        return status.st_ino, status.st_mtime_ns
+
+    before = stamp()
+    return lambda: stamp() not in (None, before)
+
+
+def n_rows(history, wanted=lambda row: True):
+    """Whole rows of a table that a run is writing, as lists of texts; none if it is not there yet."""
+    try:
+        lines = history.read_text().split("\n")[1:-1]
+    except FileNotFoundError:
+        return 0
+    return sum(wanted(line.split(",")) for line in lines)
