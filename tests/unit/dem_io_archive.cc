@@ -18,7 +18,6 @@
 #include <unistd.h>
 
 using namespace bergamo;
-using namespace bergamo::dem;
 namespace fs = std::filesystem;
 
 namespace
