@@ -61,6 +61,7 @@ MovingBody::~MovingBody() = default;
 
 void MovingBody::gather_mass()
 {
+  progress_.has_forces = 0; // elements of other masses have other forces
   scale_mass();
   const auto gather = [&](dealii::Vector<double> &total, const auto &factor)
   {
@@ -115,8 +116,16 @@ void MovingBody::scale_mass()
     mass_factor_ = std::move(factor);
 }
 
+bool MovingBody::has_moved() const
+{
+  return !std::equal(displacement_.begin(), displacement_.end(), displacement_of_stress_.begin());
+}
+
 void MovingBody::compute_internal_force()
 {
+  if (progress_.has_forces != 0 && !has_moved())
+    return;
+  progress_.has_forces = 0;
   const std::size_t n_elements = this->n_elements();
   const std::size_t n_blocks = (n_elements + block_elements - 1) / block_elements;
   const double *const now = displacement_.begin();
@@ -153,6 +162,7 @@ void MovingBody::compute_internal_force()
                   });
   if (const std::vector<std::size_t> all = inverted.all(); !all.empty())
     report_inversion(all.front());
+  progress_.has_forces = 1;
 }
 
 std::array<double, 3> MovingBody::present_centre(const std::size_t element) const
@@ -174,86 +184,112 @@ void MovingBody::report_inversion(const std::size_t element) const
   throw RunError(message.str());
 }
 
+/// A kick between two steps.
+struct MovingBody::Kick
+{
+  double before, after, time; // the steps, and over which the forces act [s]
+};
+
+/// What nodes add to the accounts by a kick.
+struct MovingBody::KickSums
+{
+  double kinetic = 0;
+  Work before, after; // over the half steps around it
+};
+
+void MovingBody::Work::add(const Work &part)
+{
+  external += part.external;
+  gravity += part.gravity;
+  boundary += part.boundary;
+  viscous += part.viscous;
+  step_change += part.step_change;
+}
+
 void MovingBody::kick(const double dt)
 {
-  const std::size_t n_nodes = this->n_nodes(), n_blocks = (n_nodes + block_nodes - 1) / block_nodes;
-  const double half_damping = 0.5 * forces_.damping * dt;
-  const double half_step_before = 0.5 * ledger_.last_step, half_step_after = 0.5 * dt;
-  struct Sums
-  {
-    double kinetic = 0;
-    Work before, after;
-  };
-  std::vector<Sums> sums(n_blocks);
-  const dealii::Vector<double> &heavy_mass = this->heavy_mass();
-  const auto kick_block = [&](const std::size_t block)
-  {
-    Sums local;
-    const std::size_t end = std::min(n_nodes, (block + 1) * block_nodes);
-    for (std::size_t node = block * block_nodes; node < end; ++node)
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        const std::size_t dof = 3 * node + i;
-        const double mass = mass_[dof], old = velocity_[dof];
-        const double external = external_force_[dof], weight = heavy_mass[dof] * forces_.gravity[i];
-        const double force = external + weight - internal_force_[dof];
-        const int constraint = constraint_of_dof_[dof];
-        double fresh, damping, reaction = 0;
-        if (constraint < 0)
-        {
-          fresh = ((1 - half_damping) * old + dt * force / mass) / (1 + half_damping);
-          damping = 0.5 * forces_.damping * mass * (old + fresh);
-        }
-        else
-        {
-          fresh = constraint_velocity_[constraint];
-          damping = 0.5 * forces_.damping * mass * (old + fresh);
-          reaction = mass * (fresh - old) / dt + damping - force;
-        }
-        velocity_[dof] = fresh;
-        reaction_force_[dof] = reaction;
-        local.kinetic += 0.5 * mass * old * fresh;
-        const auto add = [&](Work &work, const double path)
-        {
-          work.external += external * path;
-          work.gravity += weight * path;
-          work.boundary += reaction * path;
-          work.viscous += damping * path;
-        };
-        add(local.before, half_step_before * old);
-        add(local.after, half_step_after * fresh);
-      }
-    sums[block] = local;
-  };
+  require(dt > 0 && std::isfinite(dt), name_ + ": the time step", dt, "a positive number of seconds");
+  if (progress_.is_kicked != 0)
+    throw RunError(name_ + ": kicked twice in one step; let a drift follow each kick");
+  const Kick kick{ledger_.last_step > 0 ? ledger_.last_step : dt, dt, kick_time(dt)};
+  const std::size_t n_blocks = (n_nodes() + block_nodes - 1) / block_nodes;
+  std::vector<KickSums> sums(n_blocks);
   parallel_ranges(n_blocks, 1,
                   [&](std::size_t, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t block = begin; block < end; ++block)
-                      kick_block(block);
+                      sums[block] =
+                          kick_nodes(kick, block * block_nodes, std::min(n_nodes(), (block + 1) * block_nodes));
                   });
-
-  const auto accumulate = [](Work &total, const Work &part)
-  {
-    total.external += part.external;
-    total.gravity += part.gravity;
-    total.boundary += part.boundary;
-    total.viscous += part.viscous;
-  };
-  Sums total;
-  for (const Sums &block : sums)
+  KickSums total;
+  for (const KickSums &block : sums)
   {
     total.kinetic += block.kinetic;
-    accumulate(total.before, block.before);
-    accumulate(total.after, block.after);
+    total.before.add(block.before);
+    total.after.add(block.after);
   }
   ledger_.here = ledger_.ahead;
-  accumulate(ledger_.here, total.before);
+  ledger_.here.add(total.before);
   ledger_.ahead = ledger_.here;
-  accumulate(ledger_.ahead, total.after);
+  ledger_.ahead.add(total.after);
   ledger_.kinetic = total.kinetic;
   if (ledger_.last_step == 0)
     ledger_.initial = ledger_.kinetic + elements_->elastic_energy() + elements_->dissipated_energy();
   ledger_.last_step = dt;
+  progress_.is_kicked = 1;
+}
+
+MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t begin, const std::size_t end)
+{
+  const double half_damping = 0.5 * forces_.damping * kick.time;
+  const double half_step_before = ledger_.last_step > 0 ? 0.5 * kick.before : 0, half_step_after = 0.5 * kick.after;
+  // Of v⁺ − v⁻, to what it would be between two steps like the one before, and like the one after; none where the steps
+  // are alike.
+  const double to_before = (kick.before - kick.time) / kick.time, to_after = (kick.time - kick.after) / kick.time;
+  const bool changes = kick.before != kick.after;
+  const dealii::Vector<double> &heavy_mass = this->heavy_mass();
+  KickSums sums;
+  for (std::size_t node = begin; node < end; ++node)
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::size_t dof = 3 * node + i;
+      const double mass = mass_[dof], old = velocity_[dof];
+      const double external = external_force_[dof], weight = heavy_mass[dof] * forces_.gravity[i];
+      const double force = external + weight - internal_force_[dof];
+      const int constraint = constraint_of_dof_[dof];
+      double fresh, damping, reaction = 0;
+      if (constraint < 0)
+      {
+        fresh = ((1 - half_damping) * old + kick.time * force / mass) / (1 + half_damping);
+        damping = 0.5 * forces_.damping * mass * (old + fresh);
+      }
+      else
+      {
+        fresh = constraint_velocity_[constraint];
+        damping = 0.5 * forces_.damping * mass * (old + fresh);
+        reaction = mass * (fresh - old) / kick.time + damping - force;
+      }
+      velocity_[dof] = fresh;
+      reaction_force_[dof] = reaction;
+      if (changes)
+      {
+        const double kinetic = 0.5 * mass * old * (fresh + to_before * (fresh - old));
+        sums.kinetic += kinetic;
+        sums.after.step_change += 0.5 * mass * (old + to_after * (fresh - old)) * fresh - kinetic;
+      }
+      else
+        sums.kinetic += 0.5 * mass * old * fresh;
+      const auto add = [&](Work &work, const double path)
+      {
+        work.external += external * path;
+        work.gravity += weight * path;
+        work.boundary += reaction * path;
+        work.viscous += damping * path;
+      };
+      add(sums.before, half_step_before * old);
+      add(sums.after, half_step_after * fresh);
+    }
+  return sums;
 }
 
 void MovingBody::rest()
@@ -265,16 +301,25 @@ void MovingBody::rest()
     reaction_force_[dof] = constraint_of_dof_[dof] < 0 ? 0 : -force;
   }
   ledger_ = {};
+  progress_.is_kicked = 0;
 }
 
 void MovingBody::drift(const double dt)
 {
+  if (progress_.is_kicked == 0 || dt != ledger_.last_step)
+  {
+    std::ostringstream message;
+    message << name_ << ": a drift over " << dt << " s without a kick for it; kick with the same time step first";
+    throw RunError(message.str());
+  }
   parallel_ranges(displacement_.size(), 3 * few_nodes,
                   [&](std::size_t, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t dof = begin; dof < end; ++dof)
                       displacement_[dof] += dt * velocity_[dof];
                   });
+  progress_.is_kicked = 0;
+  ++progress_.n_steps;
 }
 
 MovingBody::Constraint MovingBody::prescribe_velocity(const unsigned int boundary_id, const unsigned int component,
@@ -339,6 +384,7 @@ BodyEnergy MovingBody::energy() const
   energy.boundary_work = ledger_.here.boundary;
   energy.gravity_work = ledger_.here.gravity;
   energy.external_work = ledger_.here.external;
+  energy.step_change = ledger_.here.step_change;
   energy.initial = ledger_.last_step > 0 ? ledger_.initial : energy.elastic + energy.plastic_dissipation;
   return energy;
 }
@@ -363,7 +409,7 @@ bool MovingBody::is_finite() const
 
 std::vector<std::pair<std::string, std::span<double>>> MovingBody::state()
 {
-  static_assert(sizeof(Ledger) % sizeof(double) == 0);
+  static_assert(sizeof(Ledger) % sizeof(double) == 0 && sizeof(Progress) % sizeof(double) == 0);
   std::vector<std::pair<std::string, std::span<double>>> result{
       {"displacement", doubles_of(displacement_)},
       {"displacement_of_stress", doubles_of(displacement_of_stress_)},
@@ -372,7 +418,8 @@ std::vector<std::pair<std::string, std::span<double>>> MovingBody::state()
       {"external_force", doubles_of(external_force_)},
       {"reaction_force", doubles_of(reaction_force_)},
       {"constraint_velocity", {constraint_velocity_.data(), constraint_velocity_.size()}},
-      {"ledger", {reinterpret_cast<double *>(&ledger_), sizeof(Ledger) / sizeof(double)}}};
+      {"ledger", {reinterpret_cast<double *>(&ledger_), sizeof(Ledger) / sizeof(double)}},
+      {"progress", {reinterpret_cast<double *>(&progress_), sizeof(Progress) / sizeof(double)}}};
   for (auto &view : elements_->state())
     result.push_back(std::move(view));
   return result;

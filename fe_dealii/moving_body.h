@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,9 +42,10 @@ struct MassScaling
 /// Nodes and elements moved by the explicit leapfrog; ExplicitBody and MembraneBody add the mesh.
 ///
 /// Global frame, SI units. Dof 3*node + component. Displacement, forces and stress live at whole steps, velocity at
-/// half steps. One step:
+/// half steps. One step, forces · kick · [read] · drift:
 ///   clear_external_force(); others add to external_force(); compute_internal_force(); kick(dt); drift(dt);
-/// Results are the same, bit for bit, on any number of threads.
+/// dt may change from step to step. Reading changes nothing, nor does asking for the forces again. Results are the
+/// same, bit for bit, on any number of threads.
 class MovingBody
 {
 public:
@@ -52,16 +54,26 @@ public:
   /// @name One step
   /// @{
 
-  /// Internal forces [N] and stresses of the present displacement; the strain increment is that since the last call.
-  /// Throws RunError, with its place, where an element has turned inside out.
+  /// Internal forces [N] and stresses of the present displacement; the strain increment is that since the last call,
+  /// and none is made where nothing has moved since. Throws RunError, with its place, where an element has turned
+  /// inside out.
   void compute_internal_force();
 
-  /// v⁺ from v⁻ and the forces: m (v⁺ − v⁻)/dt = f_ext + weight − f_int − α m (v⁻ + v⁺)/2. The damping is centred: it
-  /// adds no limit to the time step. Prescribed dofs take their velocity and get a reaction. dt [s] > 0.
+  /// v⁺ from v⁻ and the forces: m (v⁺ − v⁻)/h = f_ext + weight − f_int − α m (v⁻ + v⁺)/2 with h = kick_time(dt). The
+  /// damping is centred: it adds no limit to the time step. Prescribed dofs take their velocity and get a reaction.
+  /// @param dt of the step to come [s]; ConfigError unless it is positive and finite
+  /// Throws RunError for a second kick without a drift in between: it would accelerate the body twice.
   void kick(double dt);
 
-  /// u += dt v⁺. Use the dt of the kick before.
+  /// u += dt v⁺. Throws RunError unless a kick with the same dt came before.
   void drift(double dt);
+
+  /// Time over which a kick before a step dt acts [s]: the mean of the last step and the one to come, since the
+  /// velocities live in the middle of both. The first step counts as one after its like.
+  double kick_time(const double dt) const { return ledger_.last_step > 0 ? 0.5 * (ledger_.last_step + dt) : dt; }
+
+  /// Number of drifts so far.
+  std::int64_t n_steps() const { return static_cast<std::int64_t>(progress_.n_steps); }
 
   /// Takes the present displacement and stresses for a state of rest: no velocity, reactions that hold the prescribed
   /// dofs, accounts that start anew. Call after compute_internal_force().
@@ -182,7 +194,9 @@ private:
 
   struct Work // accumulated, trapezoidal
   {
-    double external = 0, gravity = 0, boundary = 0, viscous = 0;
+    double external = 0, gravity = 0, boundary = 0, viscous = 0, step_change = 0;
+
+    void add(const Work &part);
   };
   struct Ledger // doubles only: it is part of the state
   {
@@ -193,6 +207,19 @@ private:
     double last_step = 0; // dt of the last kick [s], 0 before the first
   };
   Ledger ledger_;
+
+  struct Progress // doubles only: it is part of the state
+  {
+    double has_forces = 0; // 1: those of displacement_of_stress_ are known
+    double is_kicked = 0;  // 1 from a kick to its drift
+    double n_steps = 0;    // drifts so far
+  };
+  Progress progress_;
+
+  struct Kick;
+  struct KickSums;
+  KickSums kick_nodes(const Kick &kick, std::size_t begin, std::size_t end);
+  bool has_moved() const; // since the forces were computed
 };
 
 } // namespace bergamo::fe

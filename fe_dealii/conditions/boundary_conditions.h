@@ -42,7 +42,8 @@ public:
   BoundaryConditions(ExplicitBody &body, std::vector<BoundaryCondition> conditions);
 
   /// To be called in every step, after clear_external_force() and before kick(): adds the loads of this time and sets
-  /// the velocities of the step to come. @param time, dt [s]; throws RunError where a function is not finite
+  /// the velocities of the step to come. @param time, dt [s]; ConfigError for a step that is not positive and finite,
+  /// RunError where a function is not finite
   void apply(double time, double dt);
 
   /// Force of the boundary on the body in the component that a condition prescribes, at the last kick [N].

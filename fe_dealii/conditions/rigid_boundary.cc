@@ -113,7 +113,7 @@ RigidBoundary::RigidBoundary(MovingBody &body, const std::span<const unsigned in
     centre += m * column(body.node_position()[node]);
   }
   centre /= mass_;
-  now.centre = vector(centre);
+  next.centre = vector(centre);
   own_centre = vector(column(parameters.centre) - centre);
   Matrix sum = inertia_of(parameters.mass, column(parameters.centre) - centre);
   for (int i = 0; i < 3; ++i)
@@ -128,6 +128,17 @@ RigidBoundary::RigidBoundary(MovingBody &body, const std::span<const unsigned in
       constraints.push_back(body.prescribe_velocity(alone, i));
   }
   store(sum, inertia);
+  now = next;
+  step_of_next = static_cast<double>(body.n_steps());
+}
+
+void RigidBoundary::begin(const double dt)
+{
+  require(dt > 0 && std::isfinite(dt), "rigid body: the time step", dt, "a positive number of seconds");
+  now = present();
+  step_of_next = static_cast<double>(body.n_steps() + 1);
+  gather_forces();
+  next = now;
 }
 
 void RigidBoundary::gather_forces()
@@ -154,14 +165,14 @@ void RigidBoundary::gather_forces()
 
 void RigidBoundary::advance(const double dt)
 {
-  const Matrix turned = rotation(dt * column(now.spin)) * matrix(now.rotation);
-  store(turned, now.rotation);
+  const Matrix turned = rotation(dt * column(next.spin)) * matrix(now.rotation);
+  store(turned, next.rotation);
   for (int i = 0; i < 3; ++i)
-    now.centre[i] += dt * now.velocity[i];
+    next.centre[i] += dt * next.velocity[i];
   // To where the rigid motion brings them, so that distances keep to rounding.
   for (std::size_t k = 0; k < nodes.size(); ++k)
   {
-    const Column target = column(now.centre) + turned * column(arm[k]);
+    const Column target = column(next.centre) + turned * column(arm[k]);
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::size_t dof = 3 * std::size_t(nodes[k]) + i;
@@ -173,11 +184,11 @@ void RigidBoundary::advance(const double dt)
 
 void RigidBoundary::prescribe(const Vector &velocity, const Vector &angular_velocity, const double dt)
 {
-  gather_forces();
-  now.velocity = velocity;
-  now.spin = angular_velocity;
-  const Matrix halfway = rotation(0.5 * dt * column(now.spin)) * matrix(now.rotation);
-  now.angular_momentum = vector(halfway * matrix(inertia) * transpose(halfway) * column(now.spin));
+  begin(dt);
+  next.velocity = velocity;
+  next.spin = angular_velocity;
+  const Matrix halfway = rotation(0.5 * dt * column(next.spin)) * matrix(now.rotation);
+  next.angular_momentum = vector(halfway * matrix(inertia) * transpose(halfway) * column(next.spin));
   advance(dt);
 }
 
@@ -186,29 +197,30 @@ void RigidBoundary::move(const Vector &force, const Vector &moment, const double
   const Matrix at_start = matrix(inertia);
   if (!(determinant(at_start) > 0))
     throw ConfigError("rigid body: its inertia is singular; give it one, or nodes that are not on a line");
-  gather_forces();
+  begin(dt);
+  const double time = body.kick_time(dt);
   const Matrix r = matrix(now.rotation);
   const Column own_arm = r * column(own_centre);
   const Column weight = parameters.mass * column(body.gravity());
   const Column own_moment = dealii::cross_product_3d(own_arm, weight);
   for (int i = 0; i < 3; ++i)
   {
-    now.velocity[i] += dt / mass_ * (force_[i] + weight[i] + force[i]);
-    now.angular_momentum[i] += dt * (moment_[i] + own_moment[i] + moment[i]);
+    next.velocity[i] += time / mass_ * (force_[i] + weight[i] + force[i]);
+    next.angular_momentum[i] += time * (moment_[i] + own_moment[i] + moment[i]);
   }
   // The spin of the half step from the orientation of the half step: second order.
   const auto spin_at = [&](const Matrix &orientation)
-  { return orientation * invert(at_start) * transpose(orientation) * column(now.angular_momentum); };
+  { return orientation * invert(at_start) * transpose(orientation) * column(next.angular_momentum); };
   const Column first = spin_at(r);
-  now.spin = vector(spin_at(rotation(0.5 * dt * first) * r));
+  next.spin = vector(spin_at(rotation(0.5 * dt * first) * r));
   advance(dt);
 }
 
 double RigidBoundary::kinetic_energy() const
 {
-  const Matrix r = matrix(now.rotation);
-  const Column spin = column(now.spin);
-  const Column velocity = column(now.velocity) + dealii::cross_product_3d(spin, r * column(own_centre));
+  const Matrix r = matrix(next.rotation);
+  const Column spin = column(next.spin);
+  const Column velocity = column(next.velocity) + dealii::cross_product_3d(spin, r * column(own_centre));
   const Column in_body = transpose(r) * spin;
   double energy = 0.5 * parameters.mass * velocity.norm_square();
   for (int i = 0; i < 3; ++i)
@@ -219,7 +231,10 @@ double RigidBoundary::kinetic_energy() const
 std::vector<std::pair<std::string, std::span<double>>> RigidBoundary::state()
 {
   static_assert(sizeof(Motion) % sizeof(double) == 0);
-  return {{"rigid_motion", {reinterpret_cast<double *>(&now), sizeof(Motion) / sizeof(double)}}};
+  constexpr std::size_t size = sizeof(Motion) / sizeof(double);
+  return {{"rigid_motion", {reinterpret_cast<double *>(&now), size}},
+          {"rigid_motion_next", {reinterpret_cast<double *>(&next), size}},
+          {"rigid_step_of_next", {&step_of_next, 1}}};
 }
 
 } // namespace bergamo::fe

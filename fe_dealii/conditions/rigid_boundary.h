@@ -34,7 +34,8 @@ public:
   /// component is prescribed already.
   RigidBoundary(MovingBody &body, std::span<const unsigned int> nodes, const RigidBodyParameters &parameters);
 
-  /// To be called in every step, between compute_internal_force() and kick(). @param dt [s]
+  /// To be called in every step, between compute_internal_force() and the body's kick(); called again in the same step
+  /// it begins anew. @param dt of the step to come [s]; ConfigError unless it is positive and finite
   /// @{
 
   /// Moves on with prescribed velocities. @param velocity of the centre [m/s]; @param angular_velocity [rad/s]
@@ -49,16 +50,17 @@ public:
   const Vector &force() const { return force_; }
   const Vector &moment() const { return moment_; }
 
-  const Vector &centre() const { return now.centre; }         ///< present; of the rigid body and the nodes together [m]
-  const Vector &velocity() const { return now.velocity; }     ///< of the centre, at half steps [m/s]
-  const Vector &angular_velocity() const { return now.spin; } ///< at half steps [rad/s]
-  double mass() const { return mass_; }                       ///< of the rigid body and the nodes together [kg]
-  double kinetic_energy() const;                              ///< without the nodes, at the last half step [J]
+  const Vector &centre() const { return present().centre; } ///< present; of the rigid body and the nodes together [m]
+  const Vector &velocity() const { return next.velocity; }  ///< of the centre, at half steps [m/s]
+  const Vector &angular_velocity() const { return next.spin; } ///< at half steps [rad/s]
+  double mass() const { return mass_; }                        ///< of the rigid body and the nodes together [kg]
+  double kinetic_energy() const;                               ///< without the nodes, at the last half step [J]
 
   /// What a restart needs, as views.
   std::vector<std::pair<std::string, std::span<double>>> state();
 
 private:
+  void begin(double dt);
   void gather_forces();
   void advance(double dt);
 
@@ -77,7 +79,12 @@ private:
     Vector centre, velocity{}, spin{}, angular_momentum{};
     double rotation[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   };
-  Motion now;
+  Motion now;              // at the step of the last call
+  Motion next;             // after the step to come
+  double step_of_next = 0; // number of the step that leads there
+
+  /// The body's drift has brought the nodes to where the last call sent them, or not yet.
+  const Motion &present() const { return body.n_steps() < step_of_next ? now : next; }
 };
 
 } // namespace bergamo::fe

@@ -18,6 +18,7 @@
 using namespace bergamo::driver;
 using bergamo::ConfigError;
 using bergamo::RunError;
+using bergamo::write_whole_file;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
