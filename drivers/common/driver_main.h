@@ -18,7 +18,7 @@ enum ExitStatus : int
 };
 
 /// The frame of every driver's main(): reads the command line, sets the number of OpenMP threads, starts MPI and
-/// deal.II (one thread of its own), catches Ctrl-C, runs the job, and turns exceptions into one message "error: …" on
+/// deal.II (one thread of its own), catches the signals that stop a run, runs the job, and turns exceptions into one message "error: …" on
 /// standard error: std::invalid_argument (ConfigError among them) gives user_mistake, any other exception run_failed.
 /// Otherwise returns what the job returns.
 int run_driver(int argc, char **argv, const DriverDescription &description,
