@@ -39,4 +39,10 @@ double largest_relative_overlap(const std::span<const TouchingContact> contacts,
   return largest;
 }
 
+double largest_relative_overlap(const PairContacts &pairs, const WallContacts &walls, const Particles &particles)
+{
+  return std::max(largest_relative_overlap(pairs.touching(particles), particles),
+                  largest_relative_overlap(touching_walls(walls), particles));
+}
+
 } // namespace bergamo::dem

@@ -22,6 +22,9 @@ Vec3 contact_point(const TouchingContact &contact, const Particles &particles);
 /// Largest overlap of any contact over the smaller bounding radius of its grains; 0 without contacts.
 double largest_relative_overlap(std::span<const TouchingContact> contacts, const Particles &particles);
 
+/// The same over all contacts of an assembly, those with walls too.
+double largest_relative_overlap(const PairContacts &pairs, const WallContacts &walls, const Particles &particles);
+
 /// Force on body 1 with the contact's weight [N].
 inline Vec3 force_on_body1(const TouchingContact &contact)
 {

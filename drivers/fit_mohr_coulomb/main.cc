@@ -46,7 +46,8 @@ int job(const CommandLine &command_line)
   summary.set("wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), "s");
   add_figures(summary, fit);
   report_run(summary, folder, command_line,
-             {{"fit_mohr_coulomb.py", {folder.path().string()}}, {"triaxial_ensemble.py", {folder.path().string()}}});
+             {{"fit_mohr_coulomb/plot.py", {folder.path().string()}},
+              {"fit_mohr_coulomb/plot_ensemble.py", {folder.path().string()}}});
   if (!command_line.quiet)
     std::cout << "continuum: " << folder.file("continuum.prm").string() << '\n';
   return done;

@@ -23,7 +23,7 @@ int job(const CommandLine &command_line)
   Ensemble ensemble(parameters, file.resolved_text(), folder, command_line.restart);
   if (!ensemble.run(command_line.quiet))
     return report_stop(folder);
-  report_run(ensemble.summary(), folder, command_line, {{"rve_triaxial.py", {folder.path().string()}}});
+  report_run(ensemble.summary(), folder, command_line, {{"rve_triaxial/plot.py", {folder.path().string()}}});
   return done;
 }
 

@@ -24,7 +24,7 @@ class FootingRun
 public:
   FootingRun(const FootingParameters &p, const CommandLine &command_line, const std::string &parameter_text)
       : parameters(p), run(command_line, {"strip footing", parameter_text, p.snapshot_interval}), model(p),
-        pictures(run.folder().path(), "continuum")
+        pictures(run.folder().path())
   {
     run.keep([this](StateVisitor &v) { visit(v); });
   }
@@ -84,12 +84,13 @@ int FootingRun::go()
     bearing_sum += model.footing_pressure();
     n_bearing += 1;
   };
-  const auto add_picture = [&] { pictures.add(time(), [&](const auto &path) { fe::write_vtu(model.body(), path); }); };
+  const auto write_mesh = [&](const std::filesystem::path &path) { fe::write_vtu(model.body(), path); };
+  const auto add_picture = [&] { pictures.add(time(), {{"continuum", write_mesh}}); };
   const bool is_done = run.advance(stage, {{evenly(parameters.n_samples, n_steps), [&] { sample(history); }},
                                            {is_at_the_limit, add_bearing},
                                            {evenly(parameters.n_pictures - 1, n_steps), add_picture}});
   const std::string path = run.folder().path().string();
-  return is_done ? run.finish(summary(), {{"strip_footing.py", {path}}, {"energy.py", {path}}}) : run.stop();
+  return is_done ? run.finish(summary(), {{"strip_footing/plot.py", {path}}, {"energy.py", {path}}}) : run.stop();
 }
 
 void FootingRun::sample(History &history)
@@ -124,24 +125,15 @@ Summary FootingRun::summary() const
   return summary;
 }
 
-int job(const CommandLine &command_line)
-{
-  FootingParameters parameters;
-  ParameterFile file("Strip footing on elastoplastic ground");
-  parameters.declare(file);
-  if (!read_parameters(file, command_line))
-    return done;
-  parameters.validate();
-  return FootingRun(parameters, command_line, file.resolved_text()).go();
-}
-
 } // namespace
 
 int main(int argc, char **argv)
 {
-  return run_driver(argc, argv,
-                    {"strip_footing",
-                     "Presses a strip footing into Mohr-Coulomb ground in plane strain, from the ground at rest to the "
-                     "limit load, and compares it with the closed form."},
-                    job);
+  return run_driver(
+      argc, argv,
+      {"strip_footing",
+       "Presses a strip footing into Mohr-Coulomb ground in plane strain, from the ground at rest to the "
+       "limit load, and compares it with the closed form."},
+      [](const CommandLine &command_line)
+      { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line); });
 }

@@ -61,6 +61,10 @@ struct TriaxialParameters
   /// The grains' parameters while they are packed.
   dem::SimulationParameters packing_simulation() const;
 
+  const char *model_name() const ///< as the parameter file has it
+  {
+    return kind == ModelKind::grains ? "grains" : kind == ModelKind::continuum ? "continuum" : "two-scale";
+  }
   bool has_grains() const { return kind != ModelKind::continuum; }
   bool has_continuum() const { return kind != ModelKind::grains; }
   double element_size() const { return edge / elements_per_edge; } ///< nominal [m]

@@ -100,7 +100,7 @@ TEST_CASE("a run stopped at any step goes on with the same bits")
   REQUIRE(Oscillator(whole.path()).run());
   const std::string history = content_of(whole / "history.csv");
   CHECK(std::count(history.begin(), history.end(), '\n') == 1 + 3 + 3); // three times in a stage, its end one of them
-  for (std::int64_t last_step = 0; last_step < 13; ++last_step) // at the next it ends
+  for (std::int64_t last_step = 0; last_step < 13; ++last_step)         // at the next it ends
   {
     INFO("stopped after step " << last_step);
     TemporaryFolder parts;

@@ -116,18 +116,20 @@ TEST_CASE("pictures are numbered and joined, also after a restart")
 {
   TemporaryFolder folder;
   const auto write = [](const std::filesystem::path &path) { put(path, "picture"); };
+  const std::vector<std::pair<std::string, PictureWriter>> models{{"grains", write}, {"continuum", write}};
   const Snapshot snapshot(folder / "s.h5", "test", "");
   {
-    PictureSeries pictures(folder.path(), "grains");
-    pictures.add(0, write);
-    pictures.add(0.5, write);
+    PictureSeries pictures(folder.path());
+    pictures.add(0, models);
+    pictures.add(0.5, models);
     snapshot.write([&](StateVisitor &v) { pictures.visit(v); });
-    pictures.add(1, write); // lost with the kill that follows
+    pictures.add(1, models); // lost with the kill that follows
   }
-  PictureSeries pictures(folder.path(), "grains");
+  PictureSeries pictures(folder.path());
   snapshot.read([&](StateVisitor &v) { pictures.visit(v); });
-  pictures.add(1.5, write);
+  pictures.add(1.5, models);
   CHECK(std::filesystem::exists(folder / "grains_0002.vtu"));
+  CHECK(std::filesystem::exists(folder / "continuum_0002.vtu"));
   CHECK_FALSE(std::filesystem::exists(folder / "grains_0003.vtu"));
   CHECK_THAT(content_of(folder / "grains.pvd"), Contains("0.5") && Contains("1.5") && Contains("grains_0002.vtu"));
 }

@@ -3,28 +3,32 @@
 #include "dem/io/pvd.h"
 
 #include <cstdio>
-#include <utility>
 
 namespace bergamo::driver
 {
+namespace
+{
 
-PictureSeries::PictureSeries(std::filesystem::path f, std::string n) : folder(std::move(f)), name(std::move(n)) {}
-
-std::string PictureSeries::file_name(const std::size_t number) const
+std::string file_name(const std::string &model, const std::size_t number)
 {
   char digits[32];
   std::snprintf(digits, sizeof digits, "_%04zu.vtu", number);
-  return name + digits;
+  return model + digits;
 }
 
-void PictureSeries::add(const double time, const std::function<void(const std::filesystem::path &)> &write)
+} // namespace
+
+void PictureSeries::add(const double time, const std::vector<std::pair<std::string, PictureWriter>> &models)
 {
   times.push_back(time);
-  write(folder / file_name(times.size() - 1));
-  std::vector<std::pair<double, std::string>> frames;
-  for (std::size_t k = 0; k < times.size(); ++k)
-    frames.emplace_back(times[k], file_name(k));
-  dem::write_pvd(folder / (name + ".pvd"), frames);
+  for (const auto &[name, write] : models)
+  {
+    std::vector<std::pair<double, std::string>> frames;
+    for (std::size_t k = 0; k < times.size(); ++k)
+      frames.emplace_back(times[k], file_name(name, k));
+    write(folder / frames.back().second);
+    dem::write_pvd(folder / (name + ".pvd"), frames);
+  }
 }
 
 } // namespace bergamo::driver

@@ -5,28 +5,31 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bergamo::driver
 {
 
-/// Files of one model at several times, for ParaView: NAME_0000.vtu and so on, and NAME.pvd, which joins them.
+/// Makes the file of that path. Throws RunError where it cannot be written.
+using PictureWriter = std::function<void(const std::filesystem::path &)>;
+
+/// Files of a run's models at several times, for ParaView: NAME_0000.vtu and so on of each model, and NAME.pvd, which
+/// joins them.
 class PictureSeries
 {
 public:
-  PictureSeries(std::filesystem::path folder, std::string name);
+  explicit PictureSeries(std::filesystem::path f) : folder(std::move(f)) {}
 
-  /// @param time simulated [s] @param write makes the file of that path. Throws RunError where a file cannot be written
-  void add(double time, const std::function<void(const std::filesystem::path &)> &write);
+  /// @param time simulated [s] @param models the same names at each time. Throws RunError where a file cannot be
+  /// written
+  void add(double time, const std::vector<std::pair<std::string, PictureWriter>> &models);
 
   /// The times of the files that are there.
-  void visit(StateVisitor &visit) { visit("pictures/" + name, times); }
+  void visit(StateVisitor &visit) { visit("picture_times", times); }
 
 private:
-  std::string file_name(std::size_t number) const;
-
   std::filesystem::path folder;
-  std::string name;
   std::vector<double> times; ///< [s]
 };
 

@@ -47,8 +47,8 @@ void Run::open()
 
 History Run::history(const Table &table) const
 {
-  return loop_.step() > 0 ? History::continued(folder_.history(), table.names(), loop_.last_time())
-                          : History(folder_.history(), table.names());
+  return loop_.begins_stage() ? History(folder_.history(), table.names())
+                              : History::continued(folder_.history(), table.names(), loop_.last_time());
 }
 
 Stage Run::even_stage(const std::string &name, const std::int64_t n_steps, const double time_step) const

@@ -49,6 +49,9 @@ public:
   /// What a restart needs of the loop itself.
   void visit(StateVisitor &visit);
 
+  /// Whether the next call of run() begins a stage, or goes on with the one of a snapshot.
+  bool begins_stage() const { return stage_is_done_ || step_ == 0; }
+
   std::int64_t step() const { return step_; }             ///< of the stage
   double last_time() const { return last_time_; }         ///< of the last step whose actions are done [s]
   std::int64_t steps_here() const { return steps_here_; } ///< done by this process, over all stages

@@ -27,7 +27,7 @@ std::string first_difference(const std::string &stored, const std::string &prese
   std::string line_there, line_here;
   while (std::getline(there, line_there) && std::getline(here, line_here))
     if (line_there != line_here)
-      return "'" + without_indent(line_there) + "' there, '" + without_indent(line_here) + "' here";
+      return std::string("'") + without_indent(line_there) + "' there, '" + without_indent(line_here) + "' here";
   return "one file is longer";
 }
 
