@@ -87,7 +87,7 @@ bool TriaxialRun::pack()
 bool TriaxialRun::load()
 {
   History history = run.history(table);
-  const StrainProgram &program = parameters.program;
+  const dem::StrainProgram &program = parameters.program;
   const double dt = parameters.simulation.time_step;
   const auto n_steps = static_cast<std::int64_t>(std::ceil(program.end_time() / dt - 1e-9));
   const auto sample = [&]

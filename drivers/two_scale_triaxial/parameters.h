@@ -1,11 +1,11 @@
 #pragma once
 
 #include "coupling/adapter/two_scale_model.h"
+#include "dem/loading/strain_program.h"
 #include "dem/packing/compression.h"
 #include "dem/packing/distribution.h"
 #include "dem/simulation.h"
 #include "drivers/common/parameter_file.h"
-#include "drivers/two_scale_triaxial/strain_program.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 
 #include <cstdint>
@@ -46,7 +46,7 @@ struct TriaxialParameters
   double continuum_damping = 200.; ///< mass-proportional [1/s]
 
   coupling::CouplingParameters coupling;
-  StrainProgram program;
+  dem::StrainProgram program;
 
   unsigned int n_samples = 200;
   unsigned int n_pictures = 5;

@@ -50,6 +50,9 @@ public:
   /// From here on the disk changes: folder, parameters.prm. Throws as RunFolder::open() does.
   void open();
 
+  bool is_restart() const { return command_line_.restart; }
+  void write_snapshot() const { snapshot_.write(state_); }
+
   /// history.csv with the columns of the table, new at the first step of the stage, otherwise with the rows of the
   /// steps that are done.
   History history(const Table &table) const;

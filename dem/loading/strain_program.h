@@ -2,7 +2,7 @@
 
 #include "dem/core/types.h"
 
-namespace bergamo::driver
+namespace bergamo::dem
 {
 
 /// The three paths of the shear phase (Wellmann, fig. 6.4b).
@@ -31,10 +31,10 @@ struct StrainProgram
   double end_time() const { return isotropic_time + shear_time; } ///< [s]
 
   /// Strains of x, y, z at a time [s].
-  dem::Vec3 strain(double time) const;
+  Vec3 strain(double time) const;
 
   /// 1 during the isotropic phase, 2 during the shear phase.
   int stage(double time) const { return time < isotropic_time ? 1 : 2; }
 };
 
-} // namespace bergamo::driver
+} // namespace bergamo::dem

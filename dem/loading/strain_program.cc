@@ -1,11 +1,11 @@
-#include "drivers/two_scale_triaxial/strain_program.h"
+#include "dem/loading/strain_program.h"
 
 #include "dem/core/error.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace bergamo::driver
+namespace bergamo::dem
 {
 namespace
 {
@@ -29,7 +29,7 @@ double progress(const double tau, const double ramp)
 
 void StrainProgram::validate() const
 {
-  using dem::require;
+
   require(std::abs(isotropic_volumetric_strain) <= 0.1, "isotropic volumetric strain", isotropic_volumetric_strain,
           "in [-0.1, 0.1]: the continuum is a small-strain model");
   require(std::abs(axial_strain) <= 0.1, "axial strain", axial_strain,
@@ -41,7 +41,7 @@ void StrainProgram::validate() const
   require(ramp > 0. && ramp <= 0.5, "ramp", ramp, "in (0, 0.5]");
 }
 
-dem::Vec3 StrainProgram::strain(const double time) const
+Vec3 StrainProgram::strain(const double time) const
 {
   const double first = progress(time / isotropic_time, ramp);
   const double second = progress((time - isotropic_time) / shear_time, ramp);
@@ -51,8 +51,7 @@ dem::Vec3 StrainProgram::strain(const double time) const
   else if (path == StrainPath::compression)
     volumetric = -volumetric_strain_change;
   const double lateral = 0.5 * (volumetric - axial_strain);
-  return first * dem::Vec3::Constant(isotropic_volumetric_strain / 3.) +
-         second * dem::Vec3(lateral, lateral, axial_strain);
+  return first * Vec3::Constant(isotropic_volumetric_strain / 3.) + second * Vec3(lateral, lateral, axial_strain);
 }
 
-} // namespace bergamo::driver
+} // namespace bergamo::dem
