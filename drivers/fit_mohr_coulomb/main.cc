@@ -28,7 +28,8 @@ int job(const CommandLine &command_line)
     return done;
   parameters.validate();
 
-  RunFolder folder(command_line);
+  RunFolder folder(command_line,
+                   {"fit_mohr_coulomb.json", "continuum.prm", "curves_grains.csv", "curves_continuum.csv"});
   const Ensemble ensemble = read_ensemble(parameters.ensemble, parameters.choice);
   warn(ensemble.warnings);
   const EnsembleFit fit = fit_ensemble(ensemble.samples, parameters);

@@ -13,15 +13,6 @@ namespace
 using namespace bergamo;
 using namespace bergamo::driver;
 
-struct Sample : Job
-{
-  SampleSettings settings;
-  std::filesystem::path folder;
-  SampleFigures figures;
-
-  std::filesystem::path figures_file() const { return folder / "figures.csv"; } // there once it is finished
-};
-
 /// All samples of a run, several at once, each in samples/NNNN of the run's folder.
 class Ensemble
 {
@@ -44,7 +35,8 @@ private:
 };
 
 Ensemble::Ensemble(const RveParameters &p, const CommandLine &command_line, const std::string &text)
-    : parameters(p), parameter_text(text), run(command_line, {"triaxial ensemble", text, p.snapshot_interval})
+    : parameters(p), parameter_text(text),
+      run(command_line, {"triaxial ensemble", text, p.snapshot_interval, {"samples", "ensemble.csv"}})
 {
   const bool goes_on = run.keep([](StateVisitor &) {}); // the samples have snapshots of their own
   for (const SampleSettings &settings : parameters.samples())
@@ -133,7 +125,7 @@ Summary Ensemble::summary() const
     figures.max_overlap_over_radius = std::max(figures.max_overlap_over_radius, f.largest_overlap);
   }
   figures.particle_steps_per_second = particle_steps_here({samples.begin(), samples.end()}) / figures.wall_time_s;
-  const auto n = static_cast<double>(samples.size());
+  const double n = samples.size();
   Summary summary;
   summary.set(figures);
   summary.set("samples", samples.size());

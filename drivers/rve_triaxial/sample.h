@@ -59,4 +59,14 @@ private:
   double clock = wall_clock(); ///< up to which f.wall_time counts [s]
 };
 
+/// A sample among others.
+struct Sample : Job
+{
+  SampleSettings settings;
+  std::filesystem::path folder;
+  SampleFigures figures;
+
+  std::filesystem::path figures_file() const { return folder / "figures.csv"; } // there once it is finished
+};
+
 } // namespace bergamo::driver

@@ -19,7 +19,7 @@ constexpr double display_interval = 0.2; // s between two looks at where the run
 } // namespace
 
 Run::Run(const CommandLine &command_line, const RunDescription &description)
-    : command_line_(command_line), parameters_(description.parameters), folder_(command_line),
+    : command_line_(command_line), parameters_(description.parameters), folder_(command_line, description.own_files),
       snapshot_(folder_.snapshot(), description.kind, description.parameters),
       progress_(ProgressOptions::standard(command_line.quiet)),
       loop_({description.snapshot_interval, [this] { snapshot_.write(state_); }})

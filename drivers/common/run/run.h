@@ -20,9 +20,10 @@ namespace bergamo::driver
 /// What a run says of itself.
 struct RunDescription
 {
-  std::string kind;              ///< of its snapshots, e.g. "strip footing"
-  std::string parameters;        ///< resolved text of all parameters
-  double snapshot_interval = 30; ///< of the wall clock [s]
+  std::string kind;                        ///< of its snapshots, e.g. "strip footing"
+  std::string parameters;                  ///< resolved text of all parameters
+  double snapshot_interval = 30;           ///< of the wall clock [s]
+  std::vector<std::string> own_files = {}; ///< that it writes beside those of every run, see RunFolder
 };
 
 /// A part of a run: how it is stepped, and what is shown of it.
