@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <sstream>
 
 namespace bergamo::dem
@@ -24,28 +25,28 @@ double impact_time(const double normal_stiffness, const double reduced_mass, con
   return std::pow(reduced_mass * speed * speed / normal_stiffness, 0.4) / speed;
 }
 
-/// The bodies part where the force vanishes, x + (3/2) a x' = 0 with x > 0, not where x = 0: there the force would be
-/// attractive. With y = x^(5/2) for the depth near the start and the velocity w as unknown the equation would be
-/// singular; time as variable and a start by the series keep it smooth.
-double restitution_of_number(const double a)
-{
-  if (a == 0.)
-    return 1.;
-  using State = std::array<double, 2>; // depth, velocity
-  const auto rates = [a](const State &s, State &rate, double)
-  {
-    rate[0] = s[1];
-    const double root = std::sqrt(std::max(s[0], 0.));
-    rate[1] = -root * (s[0] + 1.5 * a * s[1]);
-  };
-  // Leading terms: x = t - (2/5) a t^(5/2) - (4/35) t^(7/2), x' = 1 - a t^(3/2) - (2/5) t^(5/2); next a^2 t^4.
-  const double t0 = 1e-5 / (1. + a);
-  State s{t0 - 0.4 * a * std::pow(t0, 2.5), 1. - a * std::pow(t0, 1.5)};
+using State = std::array<double, 2>; // depth, velocity
 
+/// Restitution of the impact x'' = -max(x^(3/2) + damping(x) x', 0). The bodies part where the force vanishes, with
+/// x > 0, not where x = 0: there the force would be attractive. With y = x^(5/2) for the depth near the start and the
+/// velocity w as unknown the equation would be singular; time as variable and a start by the series keep it smooth.
+/// @param start the state at t0
+template <class Damping>
+double restitution_of(const Damping &damping, State s, const double t0)
+{
+  const auto pull = [&](const State &state) // of the sign of the force
+  {
+    const double depth = std::max(state[0], 0.);
+    return depth * std::sqrt(depth) + damping(depth) * state[1];
+  };
+  const auto rates = [&](const State &state, State &rate, double)
+  {
+    rate[0] = state[1];
+    rate[1] = -pull(state);
+  };
   using Stepper = boost::numeric::odeint::runge_kutta_dopri5<State>;
   auto stepper = boost::numeric::odeint::make_dense_output(1e-13, 1e-13, Stepper());
   stepper.initialize(s, t0, t0);
-  const auto pull = [a](const State &state) { return state[0] + 1.5 * a * state[1]; }; // of the sign of the force
   for (;;)
   {
     const auto [begin, end] = stepper.do_step(rates);
@@ -65,10 +66,34 @@ double restitution_of_number(const double a)
   }
 }
 
+double restitution_of_number(const double a)
+{
+  if (a == 0.)
+    return 1.;
+  // Leading terms: x = t - (2/5) a t^(5/2) - (4/35) t^(7/2), x' = 1 - a t^(3/2) - (2/5) t^(5/2); next a^2 t^4.
+  const double t0 = 1e-5 / (1. + a);
+  return restitution_of([a](const double x) { return 1.5 * a * std::sqrt(x); },
+                        {t0 - 0.4 * a * std::pow(t0, 2.5), 1. - a * std::pow(t0, 1.5)}, t0);
+}
+
+/// Of the dashpot, whose damping is 2 zeta sqrt((3/2) sqrt(x)) in the same units: e depends on zeta alone.
+double restitution_of_dashpot(const double ratio)
+{
+  if (ratio == 0.)
+    return 1.;
+  const double c = 2. * ratio * std::sqrt(1.5);
+  // Leading terms: x = t - (16/45) c t^(9/4), x' = 1 - (4/5) c t^(5/4); next c^2 t^(3/2).
+  const double t0 = 1e-7 / (1. + c * c);
+  return restitution_of([c](const double x) { return c * std::sqrt(std::sqrt(x)); },
+                        {t0 - 16. / 45. * c * std::pow(t0, 2.25), 1. - 0.8 * c * std::pow(t0, 1.25)}, t0);
+}
+
 /// 1 - e = first_order a + O(a^2): the work of the damping along the elastic motion w^2 = 1 - (4/5) x^(5/2), there and
 /// back, over the energy doubled: 3 int sqrt(x) w dx = (6/5) (5/4)^(3/5) B(3/5, 3/2). It is (3/2) C1 = (3/2) 1.15344 of
 /// Schwager & Poeschel (1998).
 const double first_order = 1.2 * std::pow(1.25, 0.6) * std::tgamma(0.6) * std::tgamma(1.5) / std::tgamma(2.1);
+
+constexpr double least_restitution = 0.01;
 
 void require_impact(const double normal_stiffness, const double reduced_mass, const double speed)
 {
@@ -100,9 +125,8 @@ double restitution(const double relaxation_time, const double normal_stiffness, 
 double relaxation_time(const double restitution, const double normal_stiffness, const double reduced_mass,
                        const double speed)
 {
-  constexpr double least = 0.01;
   require_impact(normal_stiffness, reduced_mass, speed);
-  require(restitution >= least && restitution <= 1., "coefficient of restitution", restitution,
+  require(restitution >= least_restitution && restitution <= 1., "coefficient of restitution", restitution,
           "in [0.01, 1]; for no rebound use 0.01");
   const double time = impact_time(normal_stiffness, reduced_mass, speed);
   // Nearly elastic: the first order in a, whose error is below that of a difference of e from 1.
@@ -119,6 +143,29 @@ double relaxation_time(const double restitution, const double normal_stiffness, 
   const auto [from, to] =
       boost::math::tools::toms748_solve(excess, low, high, boost::math::tools::eps_tolerance<double>(45), iterations);
   return std::exp(0.5 * (from + to)) * time;
+}
+
+double restitution_of_ratio(const double damping_ratio)
+{
+  require(damping_ratio >= 0. && damping_ratio <= 10., "damping ratio", damping_ratio, "in [0, 10]");
+  return restitution_of_dashpot(damping_ratio);
+}
+
+double damping_ratio_of(const double restitution)
+{
+  require(restitution >= least_restitution && restitution <= 1., "coefficient of restitution", restitution,
+          "in [0.01, 1]; for no rebound use 0.01");
+  if (1. - restitution < 1e-6) // below the error of the integration
+    return std::sqrt(5. / 6.) * (1. - restitution) / std::numbers::pi;
+  const auto excess = [restitution](const double log_ratio)
+  { return restitution_of_dashpot(std::exp(log_ratio)) - restitution; };
+  double high = -2.;
+  while (excess(high) > 0.)
+    high += 0.5;
+  std::uintmax_t iterations = 100;
+  const auto [from, to] = boost::math::tools::toms748_solve(
+      excess, std::log(0.1 * (1. - restitution)), high, boost::math::tools::eps_tolerance<double>(45), iterations);
+  return std::exp(0.5 * (from + to));
 }
 
 } // namespace bergamo::dem

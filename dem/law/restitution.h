@@ -17,4 +17,13 @@ double restitution(double relaxation_time, double normal_stiffness, double reduc
 /// @param restitution in [0.01, 1]. Throws ConfigError for a value out of range.
 double relaxation_time(double restitution, double normal_stiffness, double reduced_mass, double speed);
 
+/// Coefficient of restitution under the dashpot, Wellmann (3.27-3.29, 3.31): it depends on the damping ratio alone,
+/// neither on speed nor on masses and stiffness. Without the bound f >= 0 it would be
+/// ratio = sqrt(5/6) |ln e| / sqrt(pi^2 + ln^2 e) (Antypov & Elliott 2011). Error below 1e-9.
+/// @param damping_ratio in [0, 10]. Throws ConfigError for a value out of range.
+double restitution_of_ratio(double damping_ratio);
+
+/// The other way round. @param restitution in [0.01, 1]. Throws ConfigError for a value out of range.
+double damping_ratio_of(double restitution);
+
 } // namespace bergamo::dem

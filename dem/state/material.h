@@ -21,7 +21,7 @@ struct Material
 struct SurfacePair
 {
   double friction = 0.24;      ///< Coulomb's coefficient
-  double damping_ratio = 0.9;  ///< dashpot, share of critical damping; see damping_ratio_of() for a restitution
+  double damping_ratio = 0.9;  ///< dashpot, share of critical damping; see damping_ratio_of() for a restitution coefficient
   double relaxation_time = 0.; ///< A of the viscoelastic law, beside the dashpot [s]; see relaxation_time()
 
   /// Throws ConfigError for a value out of its range.

@@ -265,7 +265,7 @@ TEST_CASE("a cell copied 2 x 2 x 2 has the same stress")
   many.cell = PeriodicCell(2. * edges);
   Simulation copied(sand(), many, {});
   Particles again = single.particles; // without history, as the copies
-  for (auto *v : {&again.velocity, &again.angular_momentum, &again.angular_velocity})
+  for (auto *v : {&again.velocity, &again.drift_velocity, &again.angular_momentum, &again.angular_velocity})
     std::fill(v->begin(), v->end(), Vec3::Zero());
   again.cell = PeriodicCell(edges);
   Simulation fresh(sand(), again, {});
@@ -291,7 +291,7 @@ TEST_CASE("no place of a periodic cell is special")
   {
     Particles p = simulation->particles;
     p.cell = PeriodicCell(p.cell.edges);
-    for (auto *v : {&p.velocity, &p.angular_momentum, &p.angular_velocity})
+    for (auto *v : {&p.velocity, &p.drift_velocity, &p.angular_momentum, &p.angular_velocity})
       std::fill(v->begin(), v->end(), Vec3::Zero());
     for (Vec3 &x : p.position)
       x += share * shift;

@@ -192,7 +192,7 @@ TEST_CASE("the force between two pressed spheres is Hertz's")
 TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
 {
   const Threads one_thread(1);
-  // Force over displacement in one step from rest: 4 G a/(2 - nu), a = sqrt(R* d), in every direction, for sliding and
+  // Force over displacement in the step that led here: 4 G a/(2 - nu), a = sqrt(R* d), in every direction, for sliding and
   // for the rotation of either sphere (displacement omega x arm).
   for (const double nu : {0., 0.25, 0.4})
     for (int mode = 0; mode < 4; ++mode)
@@ -208,10 +208,10 @@ TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
       const double speed = 1e-3, arm = radius - 0.5 * overlap;
       double direction = 1.; // of body 2's surface relative to body 1's
       if (mode == 0)
-        grains.velocity[1] = speed * t;
+        grains.drift_velocity[1] = speed * t;
       else if (mode == 1)
       {
-        grains.velocity[0] = speed * t;
+        grains.drift_velocity[0] = speed * t;
         direction = -1.;
       }
       else
