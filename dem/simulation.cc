@@ -147,17 +147,24 @@ void Simulation::compute_forces()
 
   contacts.compute(particles, walls, {laws, p.contact, last_step}, times);
   watch_of_phases.restart();
+  const std::vector<const LoadSums *> sums = contacts.load_sums();
+  const auto load_of = [&](const std::size_t body)
+  {
+    BodyLoad load;
+    for (const LoadSums *sum : sums)
+      sum->add_load(body, load);
+    return load;
+  };
   parallel_for(particles.size(),
                [&](const std::size_t i)
                {
-                 BodyLoad load;
-                 contacts.add_load(i, load);
+                 const BodyLoad load = load_of(i);
                  particles.force[i] = load.force.head<3>();
                  particles.torque[i] = load.torque.head<3>();
                });
   for (std::size_t w = 0; w < walls.size(); ++w)
   {
-    const Vec3 force = contacts.load_of_wall(w, particles.size()).force.head<3>();
+    const Vec3 force = load_of(particles.size() + w).force.head<3>();
     const Vec3 old_force = std::exchange(walls[w].force, force);
     walls[w].work -= 0.5 * last_step * (old_force + force).dot(walls[w].drift_velocity);
   }

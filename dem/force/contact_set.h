@@ -48,14 +48,8 @@ public:
   /// Brings every contact to this step.
   void compute(const ContactScene &scene, PhaseTimes &times);
 
-  /// Adds what the contacts give to particle i, in a fixed order.
-  void add_load(const std::size_t i, BodyLoad &load) const { loads.add_load(i, load); }
-
-  /// Adds what the contacts give to a wall. @param n_particles of the simulation
-  void add_load_of_wall(const std::size_t wall, const std::size_t n_particles, BodyLoad &load) const
-  {
-    loads.add_load(n_particles + wall, load);
-  }
+  /// What the contacts give to their bodies: particles first, walls after them.
+  const LoadSums &load_sums() const { return loads; }
 
   /// Adds the virial of all contacts at this step.
   void add_virial(Virial<double> &sum) const { loads.add_virial(sum); }

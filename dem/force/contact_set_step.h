@@ -14,6 +14,8 @@ namespace bergamo::dem
 template <class Kind>
 void ContactSet<Kind>::compute(const ContactScene &scene, PhaseTimes &times)
 {
+  if (list.size() == 0)
+    return; // history has ended at the renewal
   Stopwatch watch;
   const Particles &p = scene.particles;
   list_bodies(p.size(), scene.walls.size());

@@ -75,12 +75,16 @@ void Contacts::compute(const Particles &particles, const std::vector<PlaneWall> 
                });
 }
 
-BodyLoad Contacts::load_of_wall(const std::size_t wall, const std::size_t n_particles) const
+std::vector<const LoadSums *> Contacts::load_sums() const
 {
-  BodyLoad load;
-  for (const ContactSet<GrainPlane> &set : grain_plane)
-    set.add_load_of_wall(wall, n_particles, load);
-  return load;
+  std::vector<const LoadSums *> sums;
+  for_each_set(*this,
+               [&](const auto &set, std::int32_t)
+               {
+                 if (set.load_sums().n_chunks() > 0)
+                   sums.push_back(&set.load_sums());
+               });
+  return sums;
 }
 
 Virial<double> Contacts::virial() const

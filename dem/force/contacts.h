@@ -64,12 +64,9 @@ public:
   void compute(const Particles &particles, const std::vector<PlaneWall> &walls, const ContactStep &step,
                PhaseTimes &times);
 
-  /// Adds what the contacts give to particle i, or to a wall, in a fixed order.
-  void add_load(const std::size_t i, BodyLoad &load) const
-  {
-    for_each_set(*this, [&](const auto &set, std::int32_t) { set.add_load(i, load); });
-  }
-  BodyLoad load_of_wall(std::size_t wall, std::size_t n_particles) const;
+  /// What the contacts give to their bodies, particles first and walls after them, in the order in which it is to be
+  /// summed; sets without contacts are left out.
+  std::vector<const LoadSums *> load_sums() const;
 
   /// Of all contacts between particles at this step; zero without a periodic cell.
   Virial<double> virial() const;

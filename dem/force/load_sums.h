@@ -114,8 +114,8 @@ public:
   /// Adds to `sum` what all contacts give to a body.
   void add_load(const std::size_t body_index, BodyLoad &sum) const
   {
-    if (n_chunks() == 0)
-      return;
+    if (body_index + 1 >= body_row.size())
+      return; // not among the bodies listed
     for (auto k = body_row[body_index]; k < body_row[body_index] + body_count[body_index]; ++k)
       sum += load[body_entry[k]];
   }

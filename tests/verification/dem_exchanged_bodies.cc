@@ -44,7 +44,8 @@ struct Pair
     for (std::size_t i = 0; i < particles.size(); ++i)
     {
       BodyLoad load;
-      contacts.add_load(i, load);
+      for (const LoadSums *sum : contacts.load_sums())
+        sum->add_load(i, load);
       particles.force[i] = load.force.head<3>();
       particles.torque[i] = load.torque.head<3>();
     }
