@@ -38,7 +38,7 @@ public:
 
   /// One time step towards the strains at its end; sample() may be called in between.
   void compute(const Vec3 &strain_now, const Vec3 &strain_next);
-  void move() { model.move(); }
+  void move() { model.drift(); }
 
   /// Mean stresses of x, y, z from the forces on walls and boundary, tension positive [Pa] (Wellmann, fig. 6.5a).
   Vec3 stress() const;
