@@ -171,7 +171,7 @@ std::unique_ptr<dem::Simulation> flowing_hourglass(const HourglassRecipe &recipe
     const Vec3 &x = all.position[i];
     const double gap = (shape.radius_at(x[2]) - std::hypot(x[0], x[1])) * std::cos(pi / 6.);
     if (gap > all.bounding_radius[i])
-      particles.add(all.shape[i], 2650., x, all.orientation[i]);
+      particles.add(all.parts.shape[i], 2650., x, all.orientation[i]);
   }
   const double bottom = -shape.cone_height();
   add_walls(particles, shape, bottom);

@@ -59,7 +59,7 @@ dem::Particles place_grains(const PackingRecipe &recipe, dem::Box &box)
     grains.push_back(grain);
   }
   box = {Vec3::Zero(), Vec3::Constant(std::cbrt(solid_volume / packing_fraction))};
-  return dem::add_at_random(grains, box, sand_parameters().grain.density, generator());
+  return dem::add_at_random(grains, box, sand_parameters().grain().density, generator());
 }
 
 double solid_volume(const dem::Simulation &simulation)

@@ -72,8 +72,8 @@ def house_violation(floors, path, target):
     house, target_house = path.split("/")[0], target.split("/")[0]
     if target.startswith(GROUND) and house in HOUSES:
         return None
-    if path.startswith("coupling/arlequin/") and target_house == "dem":
-        return f"coupling/arlequin/ is plain data, of dem/ it may include the core alone: {target}"
+    if path.startswith(("coupling/arlequin/", "coupling/model/")) and target_house == "dem":
+        return f"{os.path.dirname(path)}/ knows neither grains nor meshes, of dem/ it may include the core alone: {target}"
     if path.startswith("coupling/adapter/") and target_house == "fe_dealii":
         return None
     if target_house not in HOUSES[house]:

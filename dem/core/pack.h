@@ -223,21 +223,43 @@ BERGAMO_INLINE PackOf<Abi> map(const PackOf<Abi> &x, Function &&f)
 }
 
 /// Of the C library in every lane: a pack gives the bits that its lanes give alone.
-template <class Real>
-Real library_log(const Real &x)
+inline double library_log(const double x)
 {
-  return map(x, [](const double lane) { return std::log(lane); });
+  return std::log(x);
 }
-template <class Real>
-Real library_exp(const Real &x)
+inline double library_exp(const double x)
 {
-  return map(x, [](const double lane) { return std::exp(lane); });
+  return std::exp(x);
 }
 /// x^exponent for x > 0.
-template <class Real>
-Real library_pow(const Real &x, const double exponent)
+inline double library_pow(const double x, const double exponent)
 {
-  return map(x, [exponent](const double lane) { return std::pow(lane, exponent); });
+  return std::pow(x, exponent);
+}
+
+/// As map(), for a function that is a call: inserting lane by lane costs least between calls.
+template <class Abi, class Function>
+PackOf<Abi> call_by_lanes(const PackOf<Abi> &x, const Function &f)
+{
+  PackOf<Abi> result = x;
+  for (std::size_t lane = 0; lane < x.size(); ++lane)
+    result[lane] = f(x[lane]);
+  return result;
+}
+template <class Abi>
+PackOf<Abi> library_log(const PackOf<Abi> &x)
+{
+  return call_by_lanes(x, [](const double lane) { return std::log(lane); });
+}
+template <class Abi>
+PackOf<Abi> library_exp(const PackOf<Abi> &x)
+{
+  return call_by_lanes(x, [](const double lane) { return std::exp(lane); });
+}
+template <class Abi>
+PackOf<Abi> library_pow(const PackOf<Abi> &x, const double exponent)
+{
+  return call_by_lanes(x, [exponent](const double lane) { return std::pow(lane, exponent); });
 }
 
 /// Sum over the lanes, always in the same order: neighbours first.

@@ -24,7 +24,7 @@ public:
 
   /// One time step towards the strains at its end; measure() may be called in between.
   void compute(const Vec3 &strain_now, const Vec3 &strain_next);
-  void move() { model.move(); }
+  void move() { model.drift(); }
 
   /// Stresses are means from the forces on walls and boundary (Wellmann, fig. 6.5a). @param time [s]
   /// @throws RunError where the run has diverged, naming the time

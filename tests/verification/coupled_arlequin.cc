@@ -173,7 +173,7 @@ TEST_CASE("the coupled step keeps momentum and closes the energy balance")
       first = balance();
       kinetic = model.grains()->energy().kinetic;
     }
-    model.move();
+    model.drift();
   }
   CHECK((momentum() - start).norm() < 1e-12 * start.norm());
   model.compute_forces();
@@ -194,7 +194,7 @@ TEST_CASE("a coupled run has the same bits on any number of threads")
     {
       model.compute_forces();
       model.kick();
-      model.move();
+      model.drift();
     }
     std::vector<double> state;
     for (const Vec3 &x : model.grains()->particles.position)

@@ -1,0 +1,79 @@
+#include "coupling/adapter/grains_mover.h"
+
+#include "dem/core/error.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace bergamo::coupling
+{
+namespace
+{
+
+void require_own_step(const dem::Simulation &grains, const double time_step)
+{
+  const double own = grains.parameters().time_step;
+  if (time_step == own)
+    return;
+  std::ostringstream message;
+  message << "grains: a step of " << time_step << " s is asked for, theirs is " << own
+          << " s; give the model the time step of its grains";
+  throw RunError(message.str());
+}
+
+} // namespace
+
+GrainsMover::GrainsMover(std::unique_ptr<dem::Simulation> grains, std::string name)
+    : Mover(std::move(name)), grains_(std::move(grains))
+{
+}
+
+void GrainsMover::compute_forces()
+{
+  std::vector<Vec3> &external = grains_->particles.external_force;
+  std::fill(external.begin(), external.end(), Vec3::Zero());
+  grains_->compute_forces();
+}
+
+void GrainsMover::kick(const double time_step)
+{
+  require_own_step(*grains_, time_step);
+  grains_->kick();
+}
+
+void GrainsMover::drift(const double time_step)
+{
+  require_own_step(*grains_, time_step);
+  grains_->drift();
+}
+
+double GrainsMover::stable_step()
+{
+  return grains_->stable_time_step();
+}
+
+MoverEnergy GrainsMover::energy() const
+{
+  const dem::GrainEnergy e = grains_->energy();
+  return {e.kinetic, e.normal + e.tangential, e.friction_loss + e.viscous_loss,
+          e.wall_work + e.gravity_work + e.curvature_work + e.exchanged};
+}
+
+void GrainsMover::set_weights(const std::span<const std::int64_t> id, const std::span<const double> weight)
+{
+  for (const std::int64_t grain : id)
+    if (shared_.contains(grain))
+      reject("grain ", grain, " lies in two overlaps; let overlaps have no grain in common");
+  shared_.insert(id.begin(), id.end());
+  bool has_changed = false; // a restarted run has its weights already, and must not search its contacts anew
+  for (std::size_t k = 0; k < id.size(); ++k)
+  {
+    double &w = grains_->particles.weight[grains_->index_of(id[k])];
+    has_changed = has_changed || w != weight[k];
+    w = weight[k];
+  }
+  if (has_changed)
+    grains_->refresh_contacts();
+}
+
+} // namespace bergamo::coupling
