@@ -93,7 +93,7 @@ std::vector<Case> cases()
 
 struct Cloud
 {
-  std::vector<dem::Vec3> positions;
+  std::vector<Vec3> positions;
   std::vector<double> radii;
   dem::PeriodicCell cell;
   double verlet_distance = 0.; ///< a tenth of the mean radius
@@ -154,14 +154,14 @@ Cloud make_cloud(const Case &of, const int n, const bool is_periodic)
   const double edge =
       std::max(std::cbrt(volume / of.solid_fraction), 4.5 * bounding * largest); // two ranges in a periodic cell
   for (int i = 0; i < n; ++i)
-    cloud.positions.push_back(edge * dem::Vec3(unit(generator), unit(generator), unit(generator)));
+    cloud.positions.push_back(edge * Vec3(unit(generator), unit(generator), unit(generator)));
   if (of.largest > 0.)
   {
-    cloud.positions.push_back(dem::Vec3::Constant(0.5 * edge));
+    cloud.positions.push_back(Vec3::Constant(0.5 * edge));
     cloud.radii.push_back(of.largest);
   }
   if (is_periodic)
-    cloud.cell = dem::PeriodicCell(dem::Vec3::Constant(edge));
+    cloud.cell = dem::PeriodicCell(Vec3::Constant(edge));
   take_away_overlaps(cloud);
   for (double &r : cloud.radii)
     r *= bounding;
@@ -170,7 +170,7 @@ Cloud make_cloud(const Case &of, const int n, const bool is_periodic)
   if (of.distance > 0.)
     for (int k = std::max(1, static_cast<int>(of.share_away * cloud.radii.size())); k > 0; --k)
       cloud.positions[static_cast<std::size_t>(unit(generator) * cloud.radii.size())] =
-          of.distance * dem::Vec3(unit(generator), unit(generator), unit(generator));
+          of.distance * Vec3(unit(generator), unit(generator), unit(generator));
   return cloud;
 }
 
