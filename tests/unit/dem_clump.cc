@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+using namespace bergamo;
 using namespace bergamo::dem;
 
 namespace
