@@ -257,9 +257,10 @@ TEST_CASE("the support of a placed body turns with it")
     CHECK(std::abs(g.height - s.h) <= 1e-15 * s.h);
     CHECK((g.arm - r * gradient(s)).norm() <= 1e-14 * s.h);
     const Eigen::Matrix2d radii = frame.transpose() * r * hessian(s) * r.transpose() * frame;
-    // The direction in the body is right to an epsilon or two, and a radius goes with a power of its components.
-    const double least = (r.transpose() * n).cwiseAbs().minCoeff();
-    const double bound = (1e-13 + 1e-14 / least) * hessian(s).norm();
+    // The direction in the body is right to an epsilon or two, and a radius goes with powers of its components of up to
+    // q = 2 / (2 - eps), which magnify that as much.
+    const double least = (r.transpose() * n).cwiseAbs().minCoeff(), power = 2. / (2. - std::max(body.eps1, body.eps2));
+    const double bound = power * (1e-13 + 1e-14 / least) * hessian(s).norm();
     CHECK(std::abs(g.radii.r11 - radii(0, 0)) <= bound);
     CHECK(std::abs(g.radii.r22 - radii(1, 1)) <= bound);
     CHECK(std::abs(g.radii.r12 - radii(0, 1)) <= bound);
