@@ -33,24 +33,27 @@ void Simulation::add_wall(const PlaneWall &wall)
 Exchange Simulation::remove(const std::vector<std::int32_t> &leaving)
 {
   const auto n = static_cast<std::int32_t>(particles.size());
-  std::vector<std::uint8_t> leaves(n, 0);
+  std::vector<std::int64_t> leaving_ids;
   for (const std::int32_t i : leaving)
   {
     require(i >= 0 && i < n, "index of the grain to be removed", i, "below the number of grains, counted from 0");
-    leaves[i] = 1;
+    leaving_ids.push_back(particles.id[i]);
   }
+  if (leaving.empty())
+    return {};
+  compute_forces(); // may sort the grains
+  std::vector<std::uint8_t> leaves(n, 0);
+  for (const std::int64_t id : leaving_ids)
+    leaves[index(id)] = 1;
   Exchange gone;
   std::vector<std::int32_t> staying;
   for (std::int32_t i = 0; i < n; ++i)
     if (!leaves[i])
       staying.push_back(i);
-  if (staying.size() == particles.size())
-    return gone;
   if (staying.empty())
     throw RunError("all grains would be removed at time " + std::to_string(time) +
                    " s: a simulation needs at least one; end the run before");
 
-  compute_forces();
   for (std::int32_t i = 0; i < n; ++i)
   {
     if (!leaves[i])

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <vector>
 
 using namespace bergamo;
@@ -179,4 +180,34 @@ TEST_CASE("the last grain is not taken away")
   std::vector<std::int32_t> all(s.particles.size());
   std::iota(all.begin(), all.end(), 0);
   CHECK_THROWS_AS(s.remove(all), RunError);
+}
+
+TEST_CASE("who is removed are those meant, also when the grains are sorted in between")
+{
+  const Threads one_thread(1);
+  SimulationParameters p;
+  p.grain() = p.wall() = {1e8, 0.25, density};
+  p.time_step = 1e-5;
+  p.sort_interval = 1;
+  // Two rows that pass one another.
+  Particles grains;
+  for (int i = 0; i < 12; ++i)
+  {
+    grains.add(sphere, density, Vec3(3e-3 * (i % 6), 3e-3 * (i / 6), 0.), Quaternion::Identity());
+    grains.velocity[i] = Vec3(i < 6 ? 20. : -20., 0., 0.);
+  }
+  Simulation s(p, grains, {});
+  int n_sorted = 0;
+  for (int n = 0; n < 100; ++n)
+  {
+    Simulation other = s;
+    const std::vector<std::int64_t> ids = s.particles.id;
+    const Exchange gone = other.remove({0, 7});
+    CHECK(std::set(gone.ids.begin(), gone.ids.end()) == std::set{ids[0], ids[7]});
+    CHECK_FALSE(other.has(ids[0]));
+    CHECK_FALSE(other.has(ids[7]));
+    s.step();
+    n_sorted += s.particles.id != ids ? 1 : 0;
+  }
+  CHECK(n_sorted > 0);
 }
