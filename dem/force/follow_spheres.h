@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/contact/centre_line.h"
 #include "dem/force/contact_state.h"
 #include "dem/force/pair_motion.h"
 
@@ -16,7 +17,7 @@ struct SphereGeometry
 
   Real half_distance, one_over_half_distance; ///< of the centres [m, 1/m]
 
-  /// @param half_line half of x2 - x1 [m]; where there is no line, the normal is that of z
+  /// @param half_line half of x2 - x1 [m]; spheres at one place get the normal of dem/contact/centre_line.h
   SphereGeometry(const Vector3<Real> &half_line, const Real &radius_sum, const Real &radius_difference)
   {
     const Real square = half_line.squaredNorm();
@@ -24,8 +25,7 @@ struct SphereGeometry
     one_over_half_distance =
         math::select(is_line, math::inverse_sqrt(math::select(is_line, square, Real(1.))), Real(0.));
     half_distance = square * one_over_half_distance;
-    normal = half_line * one_over_half_distance;
-    normal[2] = math::select(is_line, normal[2], Real(1.)); // spheres at one place are pushed apart along z
+    normal = math::select<Real>(is_line, Vector3<Real>(half_line * one_over_half_distance), normal_without_line<Real>());
     overlap = radius_sum - half_distance - half_distance;
     point = normal * (Real(0.5) * radius_difference);
   }

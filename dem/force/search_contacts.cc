@@ -56,7 +56,9 @@ template <class Real>
 Real contact_weight(const Real &weight1, const Real &weight2, const Vector3<Real> &centre_line,
                     const Vector3<Real> &arm1)
 {
-  const Real fraction = math::clamp(Real(centre_line.dot(arm1) / centre_line.squaredNorm()), Real(0.), Real(1.));
+  const Real square = centre_line.squaredNorm(); // zero for particles at one place
+  const Real along = math::select(square > Real(0.), Real(centre_line.dot(arm1) / square), Real(0.5));
+  const Real fraction = math::clamp(along, Real(0.), Real(1.));
   return weight1 + fraction * (weight2 - weight1);
 }
 

@@ -1,6 +1,7 @@
 #include "dem/state/particles.h"
 
 #include "dem/core/error.h"
+#include "dem/shape/orientation.h"
 
 #include <algorithm>
 #include <limits>
@@ -59,9 +60,8 @@ void Particles::add(const Superquadric &new_shape, const double density, const V
 {
   new_shape.validate();
   require(density > 0. && std::isfinite(density), "density of a grain", density, "positive [kg/m^3]");
-  require(new_position.allFinite(), "place of a grain", new_position.sum(), "finite [m]");
-  const double norm = new_orientation.norm();
-  require(norm > 0. && std::isfinite(norm), "norm of a grain's quaternion", norm, "positive and finite");
+  require_finite(new_position, "place of a grain");
+  const Quaternion unit = unit_orientation(new_orientation);
   const double radius = dem::bounding_radius(new_shape);
   const auto particle = static_cast<std::int32_t>(size());
   id.push_back(particle);
@@ -70,7 +70,7 @@ void Particles::add(const Superquadric &new_shape, const double density, const V
   inertia.push_back(density * inertia_per_density(new_shape));
   bounding_radius.push_back(radius);
   position.push_back(new_position);
-  orientation.push_back(new_orientation.normalized());
+  orientation.push_back(unit);
   for (auto *motion : {&velocity, &angular_momentum, &drift_velocity, &angular_velocity, &force, &torque})
     motion->push_back(Vec3::Zero());
   weight.push_back(1.);

@@ -204,7 +204,7 @@ TEST_CASE("A manufactured motion with damping, gravity, forces and a moving face
                 body.mass()[dof] *
                     (shape[dof] * omega * (-omega * sine + parameters.damping * cosine) - parameters.gravity[dof % 3]);
           for (int i = 0; i < 3; ++i)
-            body.set_velocity(i, 0.02 * (i + 1) * omega * std::cos(omega * (t + 0.5 * dt)));
+            body.set_velocity(MovingBody::Constraint(i), 0.02 * (i + 1) * omega * std::cos(omega * (t + 0.5 * dt)));
           body.compute_internal_force();
           body.kick(dt);
           body.drift(dt);

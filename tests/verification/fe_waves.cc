@@ -171,7 +171,7 @@ TEST_CASE("A pulse that fills one element a step is d'Alembert's to rounding, re
       step(body, dt);
       greatest_velocity = std::max(greatest_velocity, body.velocity()[3 * end[0]]);
       if (fixed)
-        greatest_force = std::max(greatest_force, -body.reaction(0));
+        greatest_force = std::max(greatest_force, -body.reaction(MovingBody::Constraint(0)));
       for (std::size_t node = 0; node < body.n_nodes(); ++node)
         worst = std::max(worst, std::abs(body.displacement()[3 * node] - exact(body.node_position()[node][0], k * dt)));
     }
