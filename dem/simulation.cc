@@ -190,14 +190,15 @@ void Simulation::drift()
   const auto [last, kick] = steps();
   const double dt = p.time_step;
   accounts.book_external_work(particles, last);
+  accounts.step_change += step_change_here();
   const bool is_periodic = particles.cell.is_periodic();
   if (is_periodic)
-    accounts.cell_work.begin_kick(particles, kick);
+    accounts.cell_work.begin_kick(particles, last);
   if (!advance(particles, {p.gravity, stretching(particles.cell)}, kick, dt))
     report_divergence(particles, watch, now());
   if (is_periodic)
   {
-    accounts.cell_work.end_kick(particles, kick, dt);
+    accounts.cell_work.end_kick(particles, dt);
     particles.cell.advance(kick, dt);
     particles.largest_motion += 0.5 * dt * particles.cell.rate.norm();
   }
@@ -258,8 +259,9 @@ GrainEnergy Simulation::energy() const
   for (const PlaneWall &wall : walls)
     e.wall_work += wall.work;
   e.gravity_work = accounts.start_potential - gravity_potential(particles, p.gravity);
-  e.cell_work = accounts.cell_work.at_this_step(particles, steps().next_kick);
+  e.cell_work = accounts.cell_work.at_this_step(particles, last_step);
   e.exchanged = accounts.exchanged;
+  e.step_change = accounts.step_change + 0.5 * step_change_here();
   return e;
 }
 
@@ -267,6 +269,20 @@ double Simulation::kinetic_energy_of(const std::size_t i) const
 {
   const AccelerationField acting{p.gravity, stretching(particles.cell)};
   return kinetic_energy(particles, i, acting.at(particles.position[i]), steps());
+}
+
+/// Work of a change of the time step at this step; half of it counts at the step itself.
+double Simulation::step_change_here() const
+{
+  if (last_step == p.time_step)
+    return 0.;
+  const AccelerationField acting{p.gravity, stretching(particles.cell)};
+  return ordered_sum(particles.size(), 0.,
+                     [&](const std::size_t i) {
+                       return particles.is_fixed(i)
+                                  ? 0.
+                                  : step_change_work(particles, i, acting.at(particles.position[i]), steps());
+                     });
 }
 
 double Simulation::stable_time_step() const

@@ -105,6 +105,10 @@ public:
   void check_finite() const;
 
   const SimulationParameters &parameters() const { return p; }
+
+  /// What changes a rate by an acceleration has to reckon with the kick, not with the time step.
+  StepLengths steps() const { return {last_step, 0.5 * (last_step + p.time_step)}; }
+
   std::int64_t n_rebuilds() const { return n_renewals; } ///< renewals of the neighbours since the start
   std::int32_t index_of(const std::int64_t id) const { return index(id); } ///< place of a grain in the arrays
   bool has(const std::int64_t id) const { return index.has(id); }
@@ -137,13 +141,13 @@ public:
 
 private:
   Instant now() const { return {time, n_steps}; }
-  StepLengths steps() const { return {last_step, 0.5 * (last_step + p.time_step)}; }
   void set_range();
   void check_cell() const;
   void renew_neighbours();
   void move_walls(double drift);
   void take_order(const std::vector<std::int32_t> &order);
   double kinetic_energy_of(std::size_t i) const;
+  double step_change_here() const;
 
   SimulationParameters p;
   std::vector<ContactLaw> laws; // by pair of materials

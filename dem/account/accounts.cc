@@ -10,7 +10,7 @@ namespace bergamo::dem
 
 void Accounts::reset(const double potential)
 {
-  removed_wall_work = exchanged = 0.;
+  removed_wall_work = exchanged = step_change = 0.;
   cell_work.sum = cell_work.half_kick = 0.;
   std::fill(external_work.begin(), external_work.end(), 0.);
   start_potential = potential;
@@ -76,26 +76,53 @@ double gravity_potential(const Particles &p, const Vec3 &gravity)
   return sum;
 }
 
+namespace
+{
+
+/// Velocity, angular momentum and spin of a particle at the half step after.
+struct HalfStepAfter
+{
+  Vec3 velocity, momentum, spin;
+
+  HalfStepAfter(const Particles &p, const std::size_t i, const Vec3 &field_acceleration, const double kick)
+  {
+    Vec3 force = p.force[i];
+    if (!p.external_force.empty())
+      force += p.external_force[i];
+    velocity = p.velocity[i] + kick * (force / (p.weight[i] * p.mass[i]) + field_acceleration);
+    momentum = p.angular_momentum[i] + kick / p.weight[i] * p.torque[i];
+    spin = spin_of(p, i, momentum);
+  }
+
+  static Vec3 spin_of(const Particles &p, const std::size_t i, const Vec3 &momentum)
+  {
+    return angular_velocity(p.orientation[i].toRotationMatrix(), p.inertia[i], momentum);
+  }
+};
+
+} // namespace
+
 double kinetic_energy(const Particles &p, const std::size_t i, const Vec3 &field_acceleration, const StepLengths &steps)
 {
-  const double mass = p.weight[i] * p.mass[i], kick = steps.next_kick;
-  const Vec3 &v = p.velocity[i];
-  Vec3 force = p.force[i];
-  if (!p.external_force.empty())
-    force += p.external_force[i];
-  const Vec3 next = v + kick * (force / mass + field_acceleration);
-  const Vec3 &momentum = p.angular_momentum[i];
-  const Vec3 next_momentum = momentum + kick / p.weight[i] * p.torque[i];
-  const Mat3 rotation = p.orientation[i].toRotationMatrix();
-  const Vec3 next_spin = angular_velocity(rotation, p.inertia[i], next_momentum);
-  const double at_step = 0.5 * mass * v.dot(next) + 0.5 * p.weight[i] * momentum.dot(next_spin);
+  const HalfStepAfter next(p, i, field_acceleration, steps.next_kick);
+  const double mass = p.weight[i] * p.mass[i], weight = p.weight[i];
+  const Vec3 &v = p.velocity[i], &momentum = p.angular_momentum[i];
+  const double at_step = 0.5 * mass * v.dot(next.velocity) + 0.5 * weight * momentum.dot(next.spin);
   const double skew = 0.5 * (0.5 - steps.share_before());
   if (skew == 0.)
     return at_step;
-  const double before = mass * v.squaredNorm() +
-                        p.weight[i] * momentum.dot(angular_velocity(rotation, p.inertia[i], momentum)),
-               after = mass * next.squaredNorm() + p.weight[i] * next_momentum.dot(next_spin);
+  const double before = mass * v.squaredNorm() + weight * momentum.dot(HalfStepAfter::spin_of(p, i, momentum)),
+               after = mass * next.velocity.squaredNorm() + weight * next.momentum.dot(next.spin);
   return at_step + skew * (before - after);
+}
+
+double step_change_work(const Particles &p, const std::size_t i, const Vec3 &field_acceleration,
+                        const StepLengths &steps)
+{
+  const HalfStepAfter next(p, i, field_acceleration, steps.next_kick);
+  const Vec3 change = next.velocity - p.velocity[i], turn = next.momentum - p.angular_momentum[i];
+  return (steps.share_before() - 0.5) * p.weight[i] *
+         (p.mass[i] * change.squaredNorm() + turn.dot(HalfStepAfter::spin_of(p, i, turn)));
 }
 
 } // namespace bergamo::dem

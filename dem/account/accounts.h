@@ -26,6 +26,7 @@ struct Accounts
   double start_potential = 0.;   ///< of gravity when the accounts were opened [J]
   double removed_wall_work = 0.; ///< done by walls that were removed since [J]
   double exchanged = 0.;         ///< energy that came with added particles, less what removed ones and walls took [J]
+  double step_change = 0.;       ///< work of changes of the time step since [J]
   CellWork cell_work;
   std::vector<double> external_work;     ///< done on each particle, or empty [J]
   std::vector<Vec3> last_external_force; ///< [N], or empty
@@ -51,6 +52,7 @@ struct Accounts
     visit("start_potential", self.start_potential);
     visit("removed_wall_work", self.removed_wall_work);
     visit("exchanged", self.exchanged);
+    visit("step_change", self.step_change);
     visit("cell_work", self.cell_work);
     visit("external_work", self.external_work);
     visit("last_external_force", self.last_external_force);
@@ -61,10 +63,16 @@ struct Accounts
 double gravity_potential(const Particles &particles, const Vec3 &gravity);
 
 /// Kinetic energy of one free particle at this step, from the half steps around: m v-.v+ / 2 and H-.T I^-1 T^T H+ / 2,
-/// for steps h-, h+ that differ plus (1/2 - s) (m v-^2 - m v+^2) / 2 with s = h- / (h- + h+), and likewise for H: that
-/// closes the balance with the trapezoidal works, but for (1/2 - s) m (v+ - v-)^2 / 2 [J].
+/// for steps h-, h+ that differ plus (1/2 - s) (m v-^2 - m v+^2) / 2 with s = h- / (h- + h+), and likewise for H: half
+/// way between what closes the balance of the trapezoidal works before and after, see step_change_work() [J].
 /// @param field_acceleration of gravity and cell at its place [m/s^2]
 double kinetic_energy(const Particles &particles, std::size_t i, const Vec3 &field_acceleration,
                       const StepLengths &steps);
+
+/// What a change of the time step puts into one free particle [J]: -(1/2 - s) m (v+ - v-)^2 with s as above, and
+/// likewise for H; nothing where both steps are equal. Of the second order of the step: trapezoidal works over unequal
+/// steps around a kick do not meet in one kinetic energy.
+double step_change_work(const Particles &particles, std::size_t i, const Vec3 &field_acceleration,
+                        const StepLengths &steps);
 
 } // namespace bergamo::dem

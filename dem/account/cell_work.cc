@@ -31,19 +31,19 @@ void CellWork::book_contacts(const PeriodicCell &cell, const Vec3 &force, const 
   image_force = force;
 }
 
-double CellWork::at_this_step(const Particles &particles, const double kick) const
+double CellWork::at_this_step(const Particles &particles, const double drift) const
 {
-  return sum + 0.5 * kick * kick_power(particles, 0.);
+  return sum + 0.5 * drift * kick_power(particles, 0.);
 }
 
-void CellWork::begin_kick(const Particles &particles, const double kick)
+void CellWork::begin_kick(const Particles &particles, const double drift)
 {
-  sum = at_this_step(particles, kick);
+  sum = at_this_step(particles, drift);
 }
 
-void CellWork::end_kick(const Particles &particles, const double kick, const double drift)
+void CellWork::end_kick(const Particles &particles, const double drift)
 {
-  half_kick = 0.5 * kick * kick_power(particles, drift);
+  half_kick = 0.5 * drift * kick_power(particles, drift);
 }
 
 double return_to_cell(Particles &particles)

@@ -18,14 +18,14 @@ struct CellWork
   /// @param drift of the last step [s]
   void book_contacts(const PeriodicCell &cell, const Vec3 &force, double drift);
 
-  /// What the accounts say at this step, when the cell's acceleration is set [J]. @param kick to come [s]
-  double at_this_step(const Particles &particles, double kick) const;
+  /// What the accounts say at this step, when the cell's acceleration is set [J]. @param drift that led here [s]
+  double at_this_step(const Particles &particles, double drift) const;
 
-  /// Books the half of this step's change of the rate that belongs to it; before the grains move.
-  void begin_kick(const Particles &particles, double kick);
+  /// Books the half of this step's change of the rate that belongs to the drift that led here; before the grains move.
+  void begin_kick(const Particles &particles, double drift);
 
-  /// Keeps the other half for the next step; after the grains have moved, before the cell does.
-  void end_kick(const Particles &particles, double kick, double drift);
+  /// Keeps the half that belongs to the drift just made; after the grains have moved, before the cell does.
+  void end_kick(const Particles &particles, double drift);
 
   template <class Self, class Visit>
   static void visit_state(Self &self, Visit &visit)

@@ -19,11 +19,13 @@ struct GrainEnergy
   double cell_work = 0.;     ///< done by the deformation of a periodic cell
   double exchanged = 0.;     ///< brought in by grains and walls that were added, less what removed ones took away
 
+  double step_change = 0.;   ///< put in by changes of the time step, see step_change_work()
+
   double stored() const { return kinetic + normal + tangential; }
   double balance() const
   {
     return stored() + friction_loss + viscous_loss - curvature_work - wall_work - gravity_work - external_work -
-           cell_work - exchanged;
+           cell_work - exchanged - step_change;
   }
 };
 

@@ -73,7 +73,7 @@ void CellLoading::prepare(Simulation &simulation)
   }
   else
     check_rest(simulation, stress);
-  control.act(cell, controls_of(s, stress, axial_rate), stress, simulation.parameters().time_step);
+  control.act(cell, controls_of(s, stress, axial_rate), stress, simulation.steps().next_kick);
   now.applied = control.applied;
   if (simulation.time - now.start_time > s.longest_time)
   {
