@@ -9,29 +9,26 @@ import os
 import re
 import sys
 
-# Floors of a house, from the ground up. A room may include itself and rooms on lower floors.
-FLOORS = {
-    "dem": {
-        "core": 1,
-        "shape": 2,
-        "state": 3, "contact": 3,
-        "law": 4, "neighbour": 4,
-        "force": 5, "periodic": 5,
-        "motion": 6, "measure": 6,
-        "simulation": 7,
-        "packing": 8,
-        "loading": 9,
-        "io": 10,
-    },
-    "fe_dealii": {
-        "body_energy": 1,
-        "material": 2, "mesh": 2,
-        "element": 3, "boundary": 3,
-        "moving_body": 4,
-        "explicit_body": 5, "membrane_body": 5,
-        "stable_step": 6, "output": 6, "equilibrium": 6, "conditions": 6,
-    },
-}
+# Floors of a house, from the ground up: the tables of ARCHITECTURE.md, whose rows begin with the floor and name its
+# rooms in backticks. A room may include itself and rooms on lower floors.
+TABLE_HEAD = re.compile(r"\| floor of `(\w+)/` \|")
+TABLE_ROW = re.compile(r"\| (\d+) \|(.*)\|")
+
+
+def floors_of_houses(text):
+    floors, house = {}, None
+    for line in text.splitlines():
+        head, row = TABLE_HEAD.match(line), TABLE_ROW.match(line)
+        if head:
+            house = head[1]
+            floors[house] = {}
+        elif row and house:
+            for room in re.findall(r"`(\w+)/?`", row[2]):
+                floors[house][room] = int(row[1])
+        elif not line.startswith("|"):
+            house = None
+    return floors
+
 
 # Which houses a house may include. dem/core is the ground floor of all: it knows neither grain nor element.
 GROUND = "dem/core/"
@@ -60,18 +57,18 @@ def included_path(root, path, quote, name):
     return beside if quote == '"' and os.path.exists(os.path.join(root, beside)) else None
 
 
-def floor_violation(house, path, target):
-    floors, room, target_room = FLOORS[house], room_of(path), room_of(target)
+def floor_violation(floors, path, target):
+    house, room, target_room = path.split("/")[0], room_of(path), room_of(target)
     for name in (room, target_room):
         if name not in floors:
-            return f"{house}/{name} has no floor in cmake/check_layers.py"
+            return f"{house}/{name} has no floor in ARCHITECTURE.md"
     if room != target_room and floors[target_room] >= floors[room]:
         return (f"{house}/{room} (floor {floors[room]}) must not include {house}/{target_room} "
                 f"(floor {floors[target_room]}): {target}")
     return None
 
 
-def house_violation(path, target):
+def house_violation(floors, path, target):
     house, target_house = path.split("/")[0], target.split("/")[0]
     if target.startswith(GROUND) and house in HOUSES:
         return None
@@ -86,7 +83,7 @@ def house_violation(path, target):
         return f"only drivers may include coupling/adapter/: {target}"
     if path.startswith("drivers/common/") and target_house == "drivers" and not target.startswith("drivers/common/"):
         return f"drivers/common/ must not include a driver: {target}"
-    return floor_violation(house, path, target) if house == target_house and house in FLOORS else None
+    return floor_violation(floors[house], path, target) if house == target_house and house in floors else None
 
 
 def library_violation(path, name):
@@ -99,7 +96,7 @@ def library_violation(path, name):
     return None
 
 
-def violations_of(root, path):
+def violations_of(root, floors, path):
     with open(os.path.join(root, path), encoding="utf-8") as file:
         lines = file.read().splitlines()
     for number, line in enumerate(lines, 1):
@@ -107,7 +104,7 @@ def violations_of(root, path):
         if not match:
             continue
         target = included_path(root, path, *match.groups())
-        wrong = house_violation(path, target) if target else library_violation(path, match.group(2))
+        wrong = house_violation(floors, path, target) if target else library_violation(path, match.group(2))
         if wrong:
             yield f"{path}:{number}: {wrong}"
     if re.fullmatch(r"drivers/[^/]+/main\.cc", path) and len(lines) > MAX_MAIN_LINES:
@@ -128,7 +125,11 @@ def main():
     paths = sorted(sources(root))
     if not paths:
         sys.exit(f"error: no sources in {root}")
-    violations = [violation for path in paths for violation in violations_of(root, path)]
+    with open(os.path.join(root, "ARCHITECTURE.md"), encoding="utf-8") as file:
+        floors = floors_of_houses(file.read())
+    if not floors:
+        sys.exit("error: ARCHITECTURE.md has no table of floors")
+    violations = [violation for path in paths for violation in violations_of(root, floors, path)]
     print("\n".join(violations) if violations else f"layers: {len(paths)} files, all arrows point down")
     sys.exit(1 if violations else 0)
 

@@ -3,7 +3,7 @@
 #include "dem/account/accounts.h"
 #include "dem/account/energy.h"
 #include "dem/core/phase_times.h"
-#include "dem/divergence.h"
+#include "dem/account/divergence.h"
 #include "dem/force/contacts.h"
 #include "dem/neighbour/neighbour_watch.h"
 #include "dem/simulation_parameters.h"
@@ -94,7 +94,8 @@ public:
   /// Energies at the present step: between compute_forces() and drift().
   GrainEnergy energy() const;
 
-  /// Principal mean stresses of the periodic cell, tension positive (Wellmann 5.3) [Pa]. After compute_forces().
+  /// Principal mean stresses of the periodic cell, tension positive (Wellmann 5.3) [Pa]. After compute_forces(), before
+  /// anything is removed.
   Vec3 cell_stress() const { return contacts.virial().branch / particles.cell.volume(); }
 
   /// See dem/motion/stable_step.h [s].

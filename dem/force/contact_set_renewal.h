@@ -97,7 +97,7 @@ void ContactSet<Kind>::compact(const std::vector<std::int32_t> &pairs, const Par
                  slot[place.pair] = to;
                });
   store = std::move(ordered);
-  loads.slots_were_moved();
+  loads = {}; // particles and walls may have other numbers by now
 }
 
 template <class Kind>

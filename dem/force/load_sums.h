@@ -57,7 +57,6 @@ public:
 
   /// Whether the bodies of each chunk are listed for the slots as they are; if not, list_bodies() comes first.
   bool is_current() const { return current; }
-  void slots_were_moved() { current = false; }
 
   /// Lists the bodies of each chunk; what chunks have summed for their bodies stays.
   /// @param first, second bodies by slot, in [0, n_bodies)

@@ -24,4 +24,10 @@ double largest_relative_overlap(const std::span<const TouchingContact> contacts,
   return largest;
 }
 
+double largest_relative_overlap(const Contacts &contacts, const Particles &particles)
+{
+  return std::max(largest_relative_overlap(contacts.touching(particles), particles),
+                  largest_relative_overlap(contacts.touching_walls(particles), particles));
+}
+
 } // namespace bergamo::dem

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/force/touching_contact.h"
+#include "dem/force/contacts.h"
 #include "dem/state/particles.h"
 
 #include <span>
@@ -14,6 +14,9 @@ Vec3 contact_point(const TouchingContact &contact, const Particles &particles);
 
 /// Largest overlap of any contact over the smaller bounding radius of its grains; 0 without contacts.
 double largest_relative_overlap(std::span<const TouchingContact> contacts, const Particles &particles);
+
+/// The same over all contacts of an assembly, those with walls too.
+double largest_relative_overlap(const Contacts &contacts, const Particles &particles);
 
 /// Force on body 1 with the contact's weight [N].
 inline Vec3 force_on_body1(const TouchingContact &contact)

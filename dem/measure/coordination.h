@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/force/touching_contact.h"
+#include "dem/force/contacts.h"
 #include "dem/state/particles.h"
 
 #include <cstdint>
@@ -19,6 +19,12 @@ struct CoordinationNumbers
   double without_rattlers = 0.; ///< of the grains that are no rattlers, from the contacts among them
   std::int64_t n_rattlers = 0;  ///< see find_rattlers()
 };
+
+/// 2 Nc / N of contacts between grains, without a list of them. @param n_grains N, none of them fixed; above 0
+inline double mean_coordination(const Contacts &contacts, const std::size_t n_grains)
+{
+  return 2. * contacts.n_touching() / static_cast<double>(n_grains);
+}
 
 /// @param pairs touching contacts between grains; @param walls with walls, see touching_walls()
 CoordinationNumbers coordination_numbers(const Particles &particles, std::span<const TouchingContact> pairs,

@@ -20,6 +20,9 @@ public:
 
   double uniform(const double low, const double high) { return low + (high - low) * uniform(); }
 
+  /// A seed of its own for every value.
+  static std::uint64_t mixed(const std::uint64_t value) { return mix(value + step); }
+
 private:
   static constexpr std::uint64_t step = 0x9e3779b97f4a7c15;
 

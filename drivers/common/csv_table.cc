@@ -1,6 +1,7 @@
 #include "drivers/common/csv_table.h"
 
 #include "dem/core/error.h"
+#include "dem/core/whole_file.h"
 #include "drivers/common/nearest_name.h"
 #include "drivers/common/number_text.h"
 
@@ -78,6 +79,44 @@ CsvTable read_csv(const std::filesystem::path &path, const std::vector<std::stri
     ++table.n_rows;
   }
   return table;
+}
+
+void write_csv(const std::filesystem::path &path, const std::vector<std::string> &names,
+               const std::vector<std::vector<double>> &rows)
+{
+  std::string text;
+  const auto add = [&](const std::string &word, const bool is_last) { text.append(word).append(is_last ? "\n" : ","); };
+  for (std::size_t k = 0; k < names.size(); ++k)
+    add(names[k], k + 1 == names.size());
+  for (const std::vector<double> &row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k)
+      add(exact_text(row[k]), k + 1 == row.size());
+  write_whole_file(path, text);
+}
+
+std::vector<std::string> names_of(const FigureList &figures)
+{
+  std::vector<std::string> names;
+  for (const auto &[name, value] : figures)
+    names.push_back(name);
+  return names;
+}
+
+std::vector<double> values_of(const FigureList &figures)
+{
+  std::vector<double> values;
+  for (const auto &[name, value] : figures)
+    values.push_back(*value);
+  return values;
+}
+
+void read_figures(const std::filesystem::path &path, const FigureList &figures)
+{
+  const CsvTable table = read_csv(path, names_of(figures));
+  if (table.n_rows == 0)
+    throw ConfigError("'" + path.string() + "' has no row of numbers; remove it, or begin a new run");
+  for (const auto &[name, value] : figures)
+    *value = table[name].front();
 }
 
 } // namespace bergamo::driver

@@ -4,6 +4,7 @@
 #include "drivers/common/parameter_file.h"
 
 #include <functional>
+#include <string>
 
 namespace bergamo::driver
 {
@@ -18,9 +19,9 @@ enum ExitStatus : int
 };
 
 /// The frame of every driver's main(): reads the command line, sets the number of OpenMP threads, starts MPI and
-/// deal.II (one thread of its own), catches Ctrl-C, runs the job, and turns exceptions into one message "error: …" on
-/// standard error: ConfigError gives user_mistake, any other exception run_failed.
-/// Otherwise returns what the job returns.
+/// deal.II (one thread of its own), catches the signals that stop a run, runs the job, and turns exceptions into one
+/// message "error: …" on standard error: ConfigError gives user_mistake, any other
+/// exception run_failed. Otherwise returns what the job returns.
 int run_driver(int argc, char **argv, const DriverDescription &description,
                const std::function<int(const CommandLine &)> &job);
 
@@ -28,5 +29,20 @@ int run_driver(int argc, char **argv, const DriverDescription &description,
 /// line. Returns false when only the defaults were
 /// asked for; they are then on standard output. Throws ConfigError for the user's mistakes.
 bool read_parameters(ParameterFile &parameters, const CommandLine &command_line);
+
+/// The job of most drivers: reads and checks its parameters, then has a Job made of them go. A set of Parameters has
+/// declare() and validate(); a Job is made of it, the command line and the resolved text of the parameters, and its
+/// go() gives the exit status. @param title first line of the parameter file
+template <class Parameters, class Job>
+int run_job(const std::string &title, const CommandLine &command_line)
+{
+  Parameters parameters;
+  ParameterFile file(title);
+  parameters.declare(file);
+  if (!read_parameters(file, command_line))
+    return done;
+  parameters.validate();
+  return Job(parameters, command_line, file.resolved_text()).go();
+}
 
 } // namespace bergamo::driver

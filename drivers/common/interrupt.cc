@@ -16,6 +16,8 @@ volatile std::sig_atomic_t received_signal = 0;
 
 extern "C" void on_signal(const int signal_number) // only calls that are safe in a signal handler
 {
+  if (received_signal != 0 && signal_number == SIGHUP) // comes in twos, or with SIGTERM, from shells and systemd
+    return;
   if (received_signal != 0)
   {
     std::signal(signal_number, SIG_DFL);
@@ -39,6 +41,10 @@ void install_interrupt_handler()
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup = {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) // nohup: the run is to outlive its terminal
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 bool interrupted()

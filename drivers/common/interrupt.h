@@ -3,8 +3,8 @@
 namespace bergamo::driver
 {
 
-/// From now on, Ctrl-C (SIGINT) and SIGTERM raise a flag that the run loop reads after each step; a second one of them
-/// ends the program at once.
+/// From now on, Ctrl-C (SIGINT), SIGTERM and the loss of the terminal (SIGHUP, unless it is ignored, as under nohup)
+/// raise a flag that the run loop reads after each step; a second SIGINT or SIGTERM ends the program at once.
 void install_interrupt_handler();
 
 /// Whether the run has been asked to stop.

@@ -133,6 +133,12 @@ std::string last_line(const std::string &text)
   return last;
 }
 
+std::filesystem::path path_of(const std::filesystem::path &script)
+{
+  const std::filesystem::path drivers = std::filesystem::path(BERGAMO_SOURCE_DIR) / "drivers";
+  return script.has_parent_path() ? drivers / script : drivers / "common/plots" / script;
+}
+
 Outcome run(const std::vector<std::string> &command)
 {
   Pipe out, err;
@@ -155,9 +161,8 @@ PlotResult make_plots(const std::vector<PlotJob> &jobs)
   {
     if (interrupted())
       break;
-    const std::filesystem::path script =
-        std::filesystem::path(BERGAMO_SOURCE_DIR) / "drivers/common/plots" / job.script;
-    std::vector<std::string> command = {python, "-B", script.string()}; // -B: no byte code in the source folder
+    std::vector<std::string> command = {python, "-B",
+                                        path_of(job.script).string()}; // -B: no byte code in the source folder
     command.insert(command.end(), job.arguments.begin(), job.arguments.end());
     const Outcome outcome = run(command);
     if (!outcome.failure.empty())
@@ -172,12 +177,6 @@ PlotResult make_plots(const std::vector<PlotJob> &jobs)
         result.pictures.emplace_back(name);
   }
   return result;
-}
-
-PlotResult make_plots(const std::filesystem::path &run_folder)
-{
-  const std::string folder = run_folder.string();
-  return make_plots({{"stresses.py", {folder}}, {"energy.py", {folder}}, {"picture.py", {folder}}});
 }
 
 } // namespace bergamo::driver

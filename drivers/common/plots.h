@@ -7,10 +7,10 @@
 namespace bergamo::driver
 {
 
-/// One script of drivers/common/plots with its arguments.
+/// One script with its arguments.
 struct PlotJob
 {
-  std::string script; ///< e.g. "stresses.py"
+  std::string script; ///< of drivers/common/plots ("energy.py"), or of a driver ("strip_footing/plot.py")
   std::vector<std::string> arguments;
 };
 
@@ -23,8 +23,5 @@ struct PlotResult
 /// Draws the pictures, one script after the other, with Debian's Python (/usr/bin/python3). Pictures are an extra: a
 /// script that fails, or takes longer than five minutes, becomes a warning. Ctrl-C ends the drawing.
 PlotResult make_plots(const std::vector<PlotJob> &jobs);
-
-/// The usual pictures of a run: stresses.py, energy.py and picture.py.
-PlotResult make_plots(const std::filesystem::path &run_folder);
 
 } // namespace bergamo::driver

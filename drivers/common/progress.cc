@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -82,8 +81,7 @@ ProgressOptions ProgressOptions::standard(const bool quiet)
   if (options.is_terminal && ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1)
     options.max_width = size.ws_col - 1u;
   options.stream = &std::cerr;
-  options.clock = []
-  { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
+  options.clock = wall_clock;
   return options;
 }
 
@@ -137,15 +135,13 @@ void Progress::end_stage()
   live_width = 0;
 }
 
-void Progress::message(const std::string &text)
+void Progress::warn(const std::string &text)
 {
-  if (options.quiet)
-    return;
   if (live_width > 0)
     write_live("");
-  *options.stream << (live_width > 0 ? "\r" : "") << text << std::endl;
+  *options.stream << (live_width > 0 ? "\r" : "") << "warning: " << text << std::endl;
   live_width = 0;
-  if (in_stage && options.is_terminal)
+  if (in_stage && options.is_terminal && !options.quiet)
     show(latest, options.clock());
 }
 

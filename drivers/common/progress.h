@@ -1,7 +1,8 @@
 #pragma once
 
+#include "drivers/common/run/wall_clock.h"
+
 #include <cstdint>
-#include <functional>
 #include <iosfwd>
 #include <string>
 
@@ -41,7 +42,7 @@ struct ProgressOptions
   bool is_terminal = false;     ///< one live line instead of a plain line now and then
   std::size_t max_width = 1000; ///< columns of the terminal; longer lines are cut
   std::ostream *stream = nullptr;
-  std::function<double()> clock; ///< seconds from any origin
+  WallClock clock;
 
   /// Standard error and the steady clock.
   static ProgressOptions standard(bool quiet);
@@ -66,8 +67,8 @@ public:
   /// Shows the last state and closes the stage's line.
   void end_stage();
 
-  /// A line of its own, above the live one.
-  void message(const std::string &text);
+  /// "warning: …" on a line of its own, above the live one; also where all else is quiet.
+  void warn(const std::string &text);
 
 private:
   void show(const ProgressState &state, double now);

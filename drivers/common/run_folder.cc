@@ -8,9 +8,11 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <vector>
+#include <regex>
+#include <utility>
 
 namespace bergamo::driver
 {
@@ -27,14 +29,18 @@ bool is_part(const std::string &name)
   return name.ends_with(".partial") || name.ends_with(".part"); // of the programs and of the plot scripts
 }
 
-/// Whether a run writes a file or folder of this name.
+/// NAME_0000.vtu, of the models' pictures.
+bool is_picture(const std::string &name)
+{
+  static const std::regex pattern(".+_[0-9]{4,}\\.vtu");
+  return std::regex_match(name, pattern);
+}
+
+/// Whether every driver writes a file or folder of this name.
 bool is_of_a_run(const std::string &name)
 {
-  const bool is_vtu = name.ends_with(".vtu") && (name.starts_with("grains_") || name.starts_with("continuum_"));
-  const bool is_fit = name == "fit_mohr_coulomb.json" || name == "continuum.prm" ||
-                      (name.starts_with("curves_") && name.ends_with(".csv"));
   return name == "parameters.prm" || name == "history.csv" || name == "summary.json" || name == "snapshot.h5" ||
-         name == "plots" || name == "samples" || name == "ensemble.csv" || name.ends_with(".pvd") || is_vtu || is_fit;
+         name == "plots" || name.ends_with(".pvd") || is_picture(name);
 }
 
 /// The folder itself, or the nearest one above it that exists.
@@ -76,11 +82,12 @@ std::vector<fs::path> content(const fs::path &folder)
   return paths;
 }
 
-void move_aside(const fs::path &folder)
+void move_aside(const fs::path &folder, const std::vector<std::string> &own)
 {
+  const auto is_own = [&](const std::string &name) { return std::find(own.begin(), own.end(), name) != own.end(); };
   std::vector<fs::path> old_files;
   for (const fs::path &path : content(folder))
-    if (is_of_a_run(path.filename().string()))
+    if (const std::string name = path.filename().string(); is_of_a_run(name) || is_own(name))
       old_files.push_back(path);
   if (old_files.empty())
     return;
@@ -106,7 +113,8 @@ FolderMode mode_of(const CommandLine &command_line)
 
 } // namespace
 
-RunFolder::RunFolder(fs::path path, const FolderMode mode) : folder(std::move(path)), mode(mode)
+RunFolder::RunFolder(fs::path path, const FolderMode mode, std::vector<std::string> own)
+    : folder(std::move(path)), mode(mode), own(std::move(own))
 {
   check_writable(folder);
   std::error_code ignored;
@@ -120,7 +128,10 @@ RunFolder::RunFolder(fs::path path, const FolderMode mode) : folder(std::move(pa
                       "'; check --output, or begin a new run without --restart");
 }
 
-RunFolder::RunFolder(const CommandLine &command_line) : RunFolder(command_line.output, mode_of(command_line)) {}
+RunFolder::RunFolder(const CommandLine &command_line, std::vector<std::string> own)
+    : RunFolder(command_line.output, mode_of(command_line), std::move(own))
+{
+}
 
 RunFolder::~RunFolder()
 {
@@ -140,7 +151,7 @@ void RunFolder::open()
       throw ConfigError("another run is writing to '" + folder.string() +
                         "'; wait for its end, or choose another folder with --output");
     if (mode == FolderMode::force)
-      move_aside(folder);
+      move_aside(folder, own);
     remove_parts(folder);
   }
   catch (const fs::filesystem_error &error)

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace bergamo::driver
 {
@@ -20,19 +22,19 @@ enum class FolderMode
 /// Made in two steps, so that a mistake in the parameters never costs results: the constructor only checks, open()
 /// changes the disk and belongs after all validation, right before the first file is written.
 ///
-/// With `force`, open() moves what an earlier run left (parameters.prm, history.csv, summary.json, snapshot.h5,
-/// grains_*.vtu, continuum_*.vtu, *.pvd, plots/, of an ensemble samples/ and ensemble.csv, of a fit
-/// fit_mohr_coulomb.json, continuum.prm, curves_*.csv) to the sub-folder previous_run, which replaces an older
-/// previous_run. Files that no run writes stay where they are.
+/// With `force`, open() moves what an earlier run left to the sub-folder previous_run, which replaces an older one: the
+/// files of every run (parameters.prm, history.csv, summary.json, snapshot.h5, NAME_0000.vtu, NAME.pvd, plots/) and
+/// those that the driver names. Files that no run writes stay where they are.
 class RunFolder
 {
 public:
   /// Throws ConfigError with the remedy when the path is no folder, may not be written, is not empty (`fresh`), or has
   /// no snapshot.h5 (`restart`). Leaves the disk as it was.
-  RunFolder(std::filesystem::path path, FolderMode mode);
+  /// @param own names of the files and folders that the driver writes beside those of every run
+  RunFolder(std::filesystem::path path, FolderMode mode, std::vector<std::string> own = {});
 
   /// The folder and mode that the command line asks for.
-  explicit RunFolder(const CommandLine &command_line);
+  explicit RunFolder(const CommandLine &command_line, std::vector<std::string> own = {});
 
   ~RunFolder();
   RunFolder(const RunFolder &) = delete;
@@ -53,6 +55,7 @@ public:
 private:
   std::filesystem::path folder;
   FolderMode mode;
+  std::vector<std::string> own;
   int lock = -1; ///< descriptor of the locked folder
 };
 

@@ -28,7 +28,8 @@ int job(const CommandLine &command_line)
     return done;
   parameters.validate();
 
-  RunFolder folder(command_line);
+  RunFolder folder(command_line,
+                   {"fit_mohr_coulomb.json", "continuum.prm", "curves_grains.csv", "curves_continuum.csv"});
   const Ensemble ensemble = read_ensemble(parameters.ensemble, parameters.choice);
   warn(ensemble.warnings);
   const EnsembleFit fit = fit_ensemble(ensemble.samples, parameters);
@@ -46,7 +47,8 @@ int job(const CommandLine &command_line)
   summary.set("wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), "s");
   add_figures(summary, fit);
   report_run(summary, folder, command_line,
-             {{"fit_mohr_coulomb.py", {folder.path().string()}}, {"triaxial_ensemble.py", {folder.path().string()}}});
+             {{"fit_mohr_coulomb/plot.py", {folder.path().string()}},
+              {"fit_mohr_coulomb/plot_ensemble.py", {folder.path().string()}}});
   if (!command_line.quiet)
     std::cout << "continuum: " << folder.file("continuum.prm").string() << '\n';
   return done;

@@ -1,38 +1,139 @@
+#include "dem/core/error.h"
 #include "drivers/common/driver_main.h"
 #include "drivers/common/parameter_file.h"
-#include "drivers/common/report_run.h"
-#include "drivers/strip_footing/footing_run.h"
+#include "drivers/common/run/picture_series.h"
+#include "drivers/common/run/run.h"
+#include "drivers/common/run/visit_models.h"
+#include "drivers/strip_footing/footing_model.h"
+#include "fe_dealii/output.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace
 {
 
+using namespace bergamo;
 using namespace bergamo::driver;
 
-int job(const CommandLine &command_line)
-{
-  FootingParameters parameters;
-  ParameterFile file("Strip footing on elastoplastic ground");
-  parameters.declare(file);
-  if (!read_parameters(file, command_line))
-    return done;
-  parameters.validate();
+constexpr double bearing_share = 0.1; // of the loading time, its end, over which the limit pressure is read
 
-  RunFolder folder(command_line);
-  FootingRun run(parameters, command_line, file.resolved_text(), folder);
-  if (!run.run())
-    return report_stop(folder);
-  const std::string path = folder.path().string();
-  report_run(run.summary(), folder, command_line, {{"strip_footing.py", {path}}, {"energy.py", {path}}});
-  return done;
+/// One run of the footing: static start, settlement, files.
+class FootingRun
+{
+public:
+  FootingRun(const FootingParameters &p, const CommandLine &command_line, const std::string &parameter_text)
+      : parameters(p), run(command_line, {"strip footing", parameter_text, p.snapshot_interval}), model(p),
+        pictures(run.folder().path())
+  {
+    run.keep([this](StateVisitor &v) { visit(v); });
+  }
+
+  int go();
+
+private:
+  double time() const { return run.loop().step() * model.time_step(); }
+  void visit(StateVisitor &visit);
+  void sample(History &history);
+  Summary summary() const;
+
+  const FootingParameters &parameters;
+  Run run;
+  FootingModel model;
+  PictureSeries pictures;
+  fe::BodyEnergy energy;                 // of the last sample
+  double largest_residual = 0;           // of the energy balance [J]
+  double bearing_sum = 0, n_bearing = 0; // of the pressures over the last part of the settlement [Pa]
+  const Table table{{{"time_s", [&] { return time(); }},
+                     {"settlement_m", [&] { return parameters.settlement_at(time()); }},
+                     {"footing_pressure_Pa", [&] { return model.footing_pressure(); }},
+                     {"energy_kinetic_J", [&] { return energy.kinetic; }},
+                     {"energy_elastic_J", [&] { return energy.elastic; }},
+                     {"energy_plastic_loss_J", [&] { return energy.plastic_dissipation; }},
+                     {"energy_viscous_loss_J", [&] { return energy.viscous_dissipation; }},
+                     {"energy_footing_work_J", [&] { return energy.boundary_work; }},
+                     {"energy_gravity_work_J", [&] { return energy.gravity_work; }},
+                     {"energy_surcharge_work_J", [&] { return energy.external_work; }},
+                     {"energy_residual_J", [&] { return energy.residual(); }}}};
+};
+
+void FootingRun::visit(StateVisitor &visit)
+{
+  visit("largest_residual", largest_residual);
+  visit("bearing_sum", bearing_sum);
+  visit("n_bearing", n_bearing);
+  pictures.visit(visit);
+  visit_body(visit, model.body());
+}
+
+int FootingRun::go()
+{
+  run.open();
+  History history = run.history(table);
+  const auto n_steps = static_cast<std::int64_t>(std::ceil(parameters.loading_time / model.time_step()));
+  Stage stage = run.even_stage("settlement", n_steps, model.time_step());
+  stage.compute = [&]
+  {
+    model.compute_forces(time());
+    model.kick();
+  };
+  stage.move = [&] { model.drift(); };
+  const auto is_at_the_limit = [&](const Moment &now) { return now.step >= (1 - bearing_share) * n_steps; };
+  const auto add_bearing = [&]
+  {
+    bearing_sum += model.footing_pressure();
+    n_bearing += 1;
+  };
+  const auto write_mesh = [&](const std::filesystem::path &path) { fe::write_vtu(model.body(), path); };
+  const auto add_picture = [&] { pictures.add(time(), {{"continuum", write_mesh}}); };
+  const bool is_done = run.advance(stage, {{evenly(parameters.n_samples, n_steps), [&] { sample(history); }},
+                                           {is_at_the_limit, add_bearing},
+                                           {evenly(parameters.n_pictures - 1, n_steps), add_picture}});
+  const std::string path = run.folder().path().string();
+  return is_done ? run.finish(summary(), {{"strip_footing/plot.py", {path}}, {"energy.py", {path}}}) : run.stop();
+}
+
+void FootingRun::sample(History &history)
+{
+  if (!model.body().is_finite())
+    throw RunError("the run diverged: the ground is not finite at time " + std::to_string(time()) +
+                        " s; choose a smaller Output/step share");
+  energy = model.body().energy();
+  largest_residual = std::max(largest_residual, std::abs(energy.residual()));
+  history.append(table.row());
+}
+
+Summary FootingRun::summary() const
+{
+  const double limit = parameters.limit_pressure(), bearing = bearing_sum / n_bearing;
+  RunFigures figures = run.figures(0);
+  figures.steps = run.loop().step();
+  figures.time_step_s = model.time_step();
+  figures.stable_time_step_s = model.stable_time_step();
+  figures.energy_residual = largest_residual / std::max(std::abs(energy.boundary_work), 1e-300);
+  const double updates = static_cast<double>(model.body().n_elements()) * run.loop().steps_here();
+  Summary summary;
+  summary.set("model", std::string("continuum"));
+  summary.set(figures);
+  summary.set("elements", static_cast<std::int64_t>(model.body().n_elements()));
+  summary.set("element_updates_per_second", updates / figures.wall_time_s, "1/s");
+  summary.set("start_out_of_balance", model.start().residual.back());
+  summary.set("bearing_pressure_Pa", bearing, "Pa");
+  summary.set("limit_pressure_Pa", limit, "Pa");
+  summary.set("bearing_over_limit", bearing / limit);
+  summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
+  return summary;
 }
 
 } // namespace
 
 int main(int argc, char **argv)
 {
-  return run_driver(argc, argv,
-                    {"strip_footing",
-                     "Presses a strip footing into Mohr-Coulomb ground in plane strain, from the ground at rest to the "
-                     "limit load, and compares it with the closed form."},
-                    job);
+  return run_driver(
+      argc, argv,
+      {"strip_footing",
+       "Presses a strip footing into Mohr-Coulomb ground in plane strain, from the ground at rest to the "
+       "limit load, and compares it with the closed form."},
+      [](const CommandLine &command_line)
+      { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line); });
 }

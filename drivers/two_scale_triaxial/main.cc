@@ -1,50 +1,139 @@
 #include "drivers/common/driver_main.h"
-#include "drivers/common/interrupt.h"
-#include "drivers/common/parameter_file.h"
-#include "drivers/common/report_run.h"
-#include "drivers/two_scale_triaxial/parameters.h"
-#include "drivers/two_scale_triaxial/triaxial_run.h"
+#include "drivers/common/run/stable_step_watch.h"
+#include "drivers/two_scale_triaxial/specimen.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace
 {
 
+using namespace bergamo;
 using namespace bergamo::driver;
 
-/// Pictures of this run, and the comparison of the three models where the runs of the others lie beside it.
-std::vector<PlotJob> plot_jobs(const std::filesystem::path &folder)
+/// One run of the test: packing, loading, files.
+class TriaxialRun
 {
-  std::vector<PlotJob> jobs{
-      {"stresses.py", {folder.string()}}, {"energy.py", {folder.string()}}, {"picture.py", {folder.string()}}};
-  std::vector<std::string> others;
-  if (const auto parent = std::filesystem::absolute(folder).lexically_normal().parent_path();
-      std::filesystem::is_directory(parent))
-    for (const char *kind : {"two-scale", "two_scale_triaxial", "grains", "continuum"})
-      if (const auto other = parent / kind;
-          std::filesystem::exists(other / "summary.json") && !std::filesystem::equivalent(other, folder))
-        others.push_back(other.string());
-  if (!others.empty())
+public:
+  TriaxialRun(const TriaxialParameters &p, const CommandLine &command_line, const std::string &parameter_text)
+      : parameters(p), run(command_line, {"two-scale triaxial test", parameter_text, p.snapshot_interval}),
+        pictures(run.folder().path())
   {
-    jobs[0].arguments.push_back("--compare");
-    jobs[0].arguments.insert(jobs[0].arguments.end(), others.begin(), others.end());
+    if (run.keep([this](StateVisitor &v) { visit(v); }))
+      return;
+    if (p.has_grains())
+      packing.emplace(begin_packing(p));
+    start.box = {Vec3::Zero(), Vec3::Constant(p.edge)};
+    if (!p.has_grains())
+      specimen = std::make_unique<Specimen>(p, nullptr, start);
   }
-  return jobs;
+
+  int go();
+
+private:
+  double time() const { return run.loop().step() * parameters.simulation.time_step; } // of the loading [s]
+  void visit(StateVisitor &visit);
+  bool pack();
+  bool load();
+  Summary summary() const;
+
+  const TriaxialParameters &parameters;
+  Run run;
+  std::optional<PackingStage> packing;
+  LoadingStart start;
+  std::unique_ptr<Specimen> specimen;
+  std::int64_t packing_steps = 0;
+  PictureSeries pictures;
+  StableStepWatch stable_step{"Loading/time step"};
+  SpecimenSample now; // the last one
+  SpecimenExtremes extremes;
+  const Table table = now.table();
+};
+
+int TriaxialRun::go()
+{
+  run.open();
+  if ((packing && !pack()) || !load())
+    return run.stop();
+  const std::string path = run.folder().path().string();
+  return run.finish(summary(), {{"two_scale_triaxial/plot.py", {path}}, {"energy.py", {path}}, {"picture.py", {path}}});
 }
 
-int job(const CommandLine &command_line)
+void TriaxialRun::visit(StateVisitor &visit)
 {
-  TriaxialParameters parameters;
-  ParameterFile file("Two-scale triaxial test");
-  parameters.declare(file);
-  if (!read_parameters(file, command_line))
-    return done;
-  parameters.validate();
+  visit("packing_steps", packing_steps); // 0: the grains are still being packed
+  if (parameters.has_grains() && packing_steps == 0)
+    return visit_packing(visit, packing, parameters);
+  visit_loading(visit, specimen, start, parameters);
+  pictures.visit(visit);
+  stable_step.visit(visit);
+  extremes.visit(visit);
+}
 
-  RunFolder folder(command_line);
-  TriaxialRun run(parameters, command_line, file.resolved_text(), folder);
-  if (!run.run())
-    return report_stop(folder);
-  report_run(run.summary(), folder, command_line, plot_jobs(folder.path()));
-  return done;
+bool TriaxialRun::pack()
+{
+  dem::Simulation &grains = *packing->grains;
+  if (!run.advance(stage_of(*packing, parameters.expected_solid_fraction),
+                   {{every_steps(200), [&] { grains.check_finite(); }}}))
+    return false;
+  packing_steps = grains.n_steps;
+  start = end_packing(grains, parameters.simulation);
+  specimen = std::make_unique<Specimen>(parameters, std::move(packing->grains), start);
+  specimen->model.grains()->reset_accounts();
+  packing.reset();
+  return true;
+}
+
+bool TriaxialRun::load()
+{
+  History history = run.history(table);
+  const dem::StrainProgram &program = parameters.program;
+  const double dt = parameters.simulation.time_step;
+  const auto n_steps = static_cast<std::int64_t>(std::ceil(program.end_time() / dt - 1e-9));
+  const auto sample = [&]
+  {
+    now = specimen->measure(time());
+    extremes.add(now);
+    history.append(table.row());
+  };
+  const auto look_at_step = [&] { stable_step.look(dt, specimen->model.stable_steps().combined(), run.progress()); };
+  const auto draw = [&] { pictures.add(time(), specimen->pictures()); };
+  Stage stage = run.even_stage("loading", n_steps, dt);
+  stage.n_particles = specimen->n_grains();
+  stage.compute = [&]
+  {
+    const double t = stage.time();
+    specimen->compute(program.strain(t), program.strain(t + dt));
+  };
+  stage.move = [&] { specimen->move(); };
+  return run.advance(stage, {{evenly(parameters.n_samples, n_steps), sample},
+                             {every_steps(std::max<std::int64_t>(1, n_steps / 10)), look_at_step},
+                             {evenly(parameters.n_pictures - 1, n_steps), draw}});
+}
+
+Summary TriaxialRun::summary() const
+{
+  RunFigures figures = run.figures(specimen->n_grains());
+  figures.steps = packing_steps + run.loop().step();
+  figures.time_step_s = parameters.simulation.time_step;
+  figures.stable_time_step_s = stable_step.smallest();
+  figures.energy_residual = extremes.energy_residual();
+  figures.undecided_contacts = specimen->n_undecided();
+  figures.max_overlap_over_radius = extremes.largest_overlap;
+  const Vec3 edges = specimen->reference_edges();
+  Summary summary;
+  summary.set("model", std::string(parameters.model_name()));
+  summary.set(figures);
+  if (parameters.has_grains())
+  {
+    summary.set("packing_solid_fraction", start.solid_fraction);
+    summary.set("packing_coordination_number", start.coordination_number);
+  }
+  summary.set("cube_edges_m", std::vector<double>{edges[0], edges[1], edges[2]}, "m");
+  for (int d = 0; d < 3; ++d)
+    summary.set("stress_" + std::to_string(d + 1) + "_Pa", now.stress[d], "Pa");
+  summary.set("coupling_difference_m", now.coupling_difference, "m");
+  return summary;
 }
 
 } // namespace
@@ -56,5 +145,6 @@ int main(int argc, char **argv)
       {"two_scale_triaxial",
        "Triaxial test on a cube of sand: grains in the upper half, continuum in the lower half, joined in "
        "an overlap (Arlequin method). Compresses the cube isotropically and then shears it."},
-      job);
+      [](const CommandLine &command_line)
+      { return run_job<TriaxialParameters, TriaxialRun>("Two-scale triaxial test", command_line); });
 }

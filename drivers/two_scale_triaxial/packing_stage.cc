@@ -1,8 +1,10 @@
 #include "drivers/two_scale_triaxial/packing_stage.h"
 
-#include "dem/measure/contact_list.h"
+#include "dem/measure/coordination.h"
+#include "dem/measure/solid_fraction.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
+#include "drivers/common/run/visit_models.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,27 +27,44 @@ PackingStage begin_packing(const TriaxialParameters &parameters)
           dem::Compression(parameters.compression)};
 }
 
-PackingFigures packing_figures(const dem::Simulation &grains)
+void visit_packing(StateVisitor &visit, std::optional<PackingStage> &packing, const TriaxialParameters &parameters)
 {
-  PackingFigures figures;
-  figures.box = dem::box_between(grains.walls);
-  double solid = 0.;
-  for (const double volume : grains.particles.volume)
-    solid += volume;
-  figures.solid_fraction = solid / figures.box.volume();
-  figures.coordination_number = coordination_number(grains);
-  return figures;
+  auto grains = visit_grains(visit, packing ? packing->grains.get() : nullptr, parameters.packing_simulation());
+  if (visit.is_reading())
+    packing.emplace(PackingStage{std::move(grains), dem::Compression(parameters.compression)});
+  visit("compression/n_checks_passed", packing->compression.n_checks_passed);
+  visit("compression/unbalance", packing->compression.unbalance);
 }
 
-double coordination_number(const dem::Simulation &grains)
+Stage stage_of(PackingStage &packing, const double aim)
 {
-  return 2. * grains.contacts.n_touching() / grains.particles.size();
+  dem::Simulation &grains = *packing.grains;
+  const double solid = dem::solid_volume(grains.particles);
+  Stage stage;
+  stage.name = "packing";
+  stage.n_particles = static_cast<std::int64_t>(grains.particles.size());
+  stage.time = [&grains] { return grains.time; };
+  stage.is_last = [&packing] { return packing.compression.is_finished(); };
+  stage.compute = [&packing] { packing.compression.step(*packing.grains); };
+  stage.fraction = [&grains, solid, aim] // tells how far the compression is until the pressure rises
+  { return std::min(0.99, solid / dem::box_between(grains.walls).volume() / aim); };
+  return stage;
 }
 
-double max_overlap_over_radius(const dem::Simulation &grains)
+LoadingStart end_packing(dem::Simulation &grains, const dem::SimulationParameters &loading)
 {
-  return std::max(dem::largest_relative_overlap(grains.contacts.touching(grains.particles), grains.particles),
-                  dem::largest_relative_overlap(grains.contacts.touching_walls(grains.particles), grains.particles));
+  LoadingStart start;
+  start.box = dem::box_between(grains.walls);
+  start.solid_fraction = dem::solid_fraction(grains.particles, start.box.volume());
+  start.coordination_number = dem::mean_coordination(grains.contacts, grains.particles.size());
+  for (dem::PlaneWall &wall : grains.walls)
+    wall.velocity.setZero();
+  grains.rest();
+  grains.change(loading);
+  start.reference_by_id.resize(grains.particles.size());
+  for (std::size_t i = 0; i < grains.particles.size(); ++i)
+    start.reference_by_id[grains.particles.id[i]] = grains.particles.position[i];
+  return start;
 }
 
 } // namespace bergamo::driver

@@ -2,9 +2,12 @@
 
 #include "dem/packing/compression.h"
 #include "dem/simulation.h"
+#include "drivers/common/run/run.h"
 #include "drivers/two_scale_triaxial/parameters.h"
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace bergamo::driver
 {
@@ -19,20 +22,22 @@ struct PackingStage
 /// Draws and places the grains. @throws ConfigError where they do not fit
 PackingStage begin_packing(const TriaxialParameters &parameters);
 
-/// What the packing has come to.
-struct PackingFigures
+/// The state of a packing under way, by name; in reading it is made.
+void visit_packing(StateVisitor &visit, std::optional<PackingStage> &packing, const TriaxialParameters &parameters);
+
+/// How the packing is stepped. @param aim solid fraction that is expected, for the display
+Stage stage_of(PackingStage &packing, double aim);
+
+/// What the loading starts from.
+struct LoadingStart
 {
+  dem::Box box;                           ///< of the grains or, without any, the cube
+  std::vector<Vec3> reference_by_id; ///< the grains' places
   double solid_fraction = 0.;
   double coordination_number = 0.; ///< contacts a grain
-  dem::Box box;
 };
 
-PackingFigures packing_figures(const dem::Simulation &grains);
-
-/// Contacts between grains, counted for both partners, over the number of grains.
-double coordination_number(const dem::Simulation &grains);
-
-/// Largest overlap of any contact over the smaller bounding radius of its grains.
-double max_overlap_over_radius(const dem::Simulation &grains);
+/// Stops a packing's grains and walls where they are, for the loading.
+LoadingStart end_packing(dem::Simulation &grains, const dem::SimulationParameters &loading);
 
 } // namespace bergamo::driver

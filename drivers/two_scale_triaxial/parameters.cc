@@ -66,9 +66,9 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Loading", "isotropic volumetric strain", program.isotropic_volumetric_strain, "compression is negative");
   file.add("Loading", "isotropic time", program.isotropic_time, "[s]", Range::positive());
   file.add("Loading", "path", program.path, "of the shear phase",
-           {{"unloading", StrainPath::unloading},
-            {"constant volume", StrainPath::constant_volume},
-            {"compression", StrainPath::compression}});
+           {{"unloading", dem::StrainPath::unloading},
+            {"constant volume", dem::StrainPath::constant_volume},
+            {"compression", dem::StrainPath::compression}});
   file.add("Loading", "axial strain", program.axial_strain, "along z in the shear phase");
   file.add("Loading", "volumetric strain change", program.volumetric_strain_change,
            "size of the change in the shear phase; without meaning at constant volume", Range::non_negative());

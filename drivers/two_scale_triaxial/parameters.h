@@ -1,11 +1,11 @@
 #pragma once
 
 #include "coupling/adapter/two_scale_model.h"
+#include "dem/loading/strain_program.h"
 #include "dem/packing/compression.h"
 #include "dem/packing/distribution.h"
 #include "dem/simulation.h"
 #include "drivers/common/parameter_file.h"
-#include "drivers/two_scale_triaxial/strain_program.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 
 #include <cstdint>
@@ -46,7 +46,7 @@ struct TriaxialParameters
   double continuum_damping = 200.; ///< mass-proportional [1/s]
 
   coupling::CouplingParameters coupling;
-  StrainProgram program;
+  dem::StrainProgram program;
 
   unsigned int n_samples = 200;
   unsigned int n_pictures = 5;
@@ -62,6 +62,10 @@ struct TriaxialParameters
   dem::SimulationParameters packing_simulation() const;
   dem::SimulationParameters loading_simulation() const; ///< walls damp as the grains do
 
+  const char *model_name() const ///< as the parameter file has it
+  {
+    return kind == ModelKind::grains ? "grains" : kind == ModelKind::continuum ? "continuum" : "two-scale";
+  }
   bool has_grains() const { return kind != ModelKind::continuum; }
   bool has_continuum() const { return kind != ModelKind::grains; }
   double element_size() const { return edge / elements_per_edge; } ///< nominal [m]

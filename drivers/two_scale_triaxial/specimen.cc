@@ -1,15 +1,33 @@
 #include "drivers/two_scale_triaxial/specimen.h"
 
+#include "dem/core/error.h"
+#include "dem/io/vtu.h"
+#include "dem/measure/contact_list.h"
+#include "dem/measure/coordination.h"
+#include "drivers/common/run/visit_models.h"
 #include "fe_dealii/mesh/box_mesh.h"
+#include "fe_dealii/output.h"
+#include "fe_dealii/stable_step.h"
 
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace bergamo::driver
 {
 namespace
 {
+
+/// Grains with their weights and the forces that they are left with.
+void write_grains(const dem::Simulation &grains, const std::filesystem::path &path)
+{
+  std::vector<double> force;
+  for (const Vec3 &f : grains.particles.force)
+    force.push_back(f.norm());
+  const dem::GrainField fields[] = {{"weight", grains.particles.weight}, {"resultant_force", force}};
+  dem::write_grains_vtu(grains.particles, fields, path);
+}
 
 /// The continuum's part of the cube: it starts under the packing's pressure, so that the overlap starts in equilibrium.
 std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters, const dem::Box &cube)
@@ -47,11 +65,9 @@ dem::Box whole_cube(const TriaxialParameters &parameters, dem::Box box)
 
 } // namespace
 
-Specimen::Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const dem::Box &box,
-                   const std::vector<Vec3> &reference_by_id)
-    : model(std::move(grains), make_body(parameters, whole_cube(parameters, box)), parameters.simulation.time_step),
-      cube(whole_cube(parameters, box)), edges(cube.edges()), current_edges(edges),
-      step(parameters.simulation.time_step)
+Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start)
+    : model(std::move(grains), make_body(p, whole_cube(p, start.box)), p.simulation.time_step), parameters(p),
+      cube(whole_cube(p, start.box)), edges(cube.edges()), step(p.simulation.time_step)
 {
   const bool is_joined = parameters.kind == ModelKind::two_scale;
   if (fe::ExplicitBody *body = model.body())
@@ -60,7 +76,7 @@ Specimen::Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Si
       faces[face].constraint = body->prescribe_velocity(face, face / 2);
   }
   if (is_joined)
-    join(parameters, reference_by_id, edges[2] / parameters.elements_per_edge);
+    join(start.reference_by_id, edges[2] / parameters.elements_per_edge);
   if (const dem::Simulation *s = model.grains())
   {
     // Joined, the grains' floor is gone and the wall above has moved up in the list.
@@ -71,9 +87,21 @@ Specimen::Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Si
       faces[4].wall = 4;
     faces[5].wall = has_floor ? 5 : 4;
   }
+  check_stable_step();
 }
 
-void Specimen::join(const TriaxialParameters &parameters, const std::vector<Vec3> &reference_by_id, const double layer)
+void Specimen::check_stable_step() const
+{
+  const double limit = model.body() ? fe::stable_step(*model.body()).time_step : step;
+  if (step <= limit)
+    return;
+  std::ostringstream message;
+  message << "Loading/time step is " << step << " s: it must stay below " << limit
+          << " s, the stable step of the continuum";
+  throw ConfigError(message.str());
+}
+
+void Specimen::join(const std::vector<Vec3> &reference_by_id, const double layer)
 {
   // A restarted run finds its floor removed already.
   if (model.grains()->walls.size() == 6)
@@ -88,7 +116,7 @@ void Specimen::join(const TriaxialParameters &parameters, const std::vector<Vec3
 
 void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
 {
-  current_edges = edges.cwiseProduct(Vec3::Ones() + strain_now);
+  strain = strain_now;
   model.compute_forces();
   for (int d = 0; d < 3; ++d)
   {
@@ -102,8 +130,43 @@ void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
   model.kick();
 }
 
+SpecimenSample Specimen::measure(const double time) const
+{
+  const auto at = [&] { return " at time " + std::to_string(time) + " s; choose a smaller Loading/time step"; };
+  const dem::Simulation *grains = model.grains();
+  if (grains)
+    grains->check_finite();
+  if (model.body() && !model.body()->is_finite())
+    throw RunError("the run diverged: the continuum is not finite" + at());
+  SpecimenSample sample{.time = time,
+                        .stage = parameters.program.stage(time),
+                        .strain = strain,
+                        .stress = stress(),
+                        .energy = coupling::energy_of(model)};
+  sample.coupling_difference = model.penalty_state().largest_difference;
+  if (!grains)
+    return sample;
+  sample.coordination_number = dem::mean_coordination(grains->contacts, grains->particles.size());
+  sample.largest_overlap = dem::largest_relative_overlap(grains->contacts, grains->particles);
+  if (sample.largest_overlap > 0.2)
+    throw RunError("the run diverged: grains overlap by " + std::to_string(sample.largest_overlap) +
+                        " of their radius" + at() + " or smaller strains");
+  return sample;
+}
+
+std::vector<std::pair<std::string, PictureWriter>> Specimen::pictures() const
+{
+  std::vector<std::pair<std::string, PictureWriter>> list;
+  if (const dem::Simulation *grains = model.grains())
+    list.emplace_back("grains", [grains](const auto &path) { write_grains(*grains, path); });
+  if (const fe::ExplicitBody *body = model.body())
+    list.emplace_back("continuum", [body](const auto &path) { fe::write_vtu(*body, path); });
+  return list;
+}
+
 Vec3 Specimen::stress() const
 {
+  const Vec3 current_edges = edges.cwiseProduct(Vec3::Ones() + strain);
   Vec3 stress = Vec3::Zero();
   for (int d = 0; d < 3; ++d)
   {
@@ -128,32 +191,21 @@ Vec3 Specimen::stress() const
   return stress;
 }
 
-SpecimenEnergy Specimen::energy() const
+void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, LoadingStart &start,
+                   const TriaxialParameters &parameters)
 {
-  SpecimenEnergy e;
-  if (const dem::Simulation *grains = model.grains())
-  {
-    const dem::GrainEnergy g = grains->energy();
-    e.kinetic += g.kinetic;
-    e.grains_elastic = g.normal + g.tangential;
-    e.friction_loss = g.friction_loss;
-    e.viscous_loss += g.viscous_loss;
-    e.wall_work += g.wall_work;
-    e.gravity_work += g.gravity_work;
-    e.curvature_work = g.curvature_work;
-  }
-  if (const fe::ExplicitBody *body = model.body())
-  {
-    const fe::BodyEnergy b = body->energy();
-    e.kinetic += b.kinetic;
-    e.continuum_elastic = b.elastic;
-    e.plastic_loss = b.plastic_dissipation;
-    e.viscous_loss += b.viscous_dissipation;
-    e.wall_work += b.boundary_work;
-    e.gravity_work += b.gravity_work;
-  }
-  e.coupling = model.penalty_state().energy;
-  return e;
+  visit("loading/box_low", start.box.low);
+  visit("loading/box_high", start.box.high);
+  visit("loading/reference", start.reference_by_id);
+  visit("loading/solid_fraction", start.solid_fraction);
+  visit("loading/coordination_number", start.coordination_number);
+  std::unique_ptr<dem::Simulation> grains;
+  if (parameters.has_grains())
+    grains = visit_grains(visit, specimen ? specimen->model.grains() : nullptr, parameters.simulation);
+  if (visit.is_reading())
+    specimen = std::make_unique<Specimen>(parameters, std::move(grains), start);
+  if (specimen->model.body())
+    visit_body(visit, *specimen->model.body());
 }
 
 } // namespace bergamo::driver

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "coupling/adapter/two_scale_model.h"
-#include "drivers/two_scale_triaxial/parameters.h"
+#include "drivers/common/run/picture_series.h"
+#include "drivers/two_scale_triaxial/packing_stage.h"
+#include "drivers/two_scale_triaxial/specimen_sample.h"
 
 #include <array>
 #include <memory>
@@ -11,41 +13,28 @@
 namespace bergamo::driver
 {
 
-/// Energies of both models and of their coupling [J]; the accounts open with the loading.
-struct SpecimenEnergy
-{
-  double kinetic = 0., grains_elastic = 0., continuum_elastic = 0., coupling = 0.;
-  double friction_loss = 0., viscous_loss = 0., plastic_loss = 0.;
-  double wall_work = 0.;                         ///< of the walls on grains and of the boundary on the continuum
-  double gravity_work = 0., curvature_work = 0.; ///< see dem::ContactLosses
-
-  double balance() const
-  {
-    return kinetic + grains_elastic + continuum_elastic + coupling + friction_loss + viscous_loss + plastic_loss -
-           wall_work - gravity_work - curvature_work;
-  }
-};
-
 /// The cube under test: grains above, continuum below, joined in the overlap; or one of them alone. Its outer faces
 /// move with prescribed strains: lower faces stand still, upper ones move.
 class Specimen
 {
 public:
-  /// @param grains the packing between six walls, or none for a continuum alone; @param box the grains' box before any
-  /// loading (without grains: the cube); @param reference_by_id the grains' places at that time
-  Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const dem::Box &box,
-           const std::vector<Vec3> &reference_by_id);
+  /// @param grains the packing between six walls, or none for a continuum alone; @param start before any loading
+  /// @throws ConfigError where the time step is above the stable one of the continuum
+  Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start);
 
-  /// One time step towards the strains at its end; sample() may be called in between.
+  /// One time step towards the strains at its end; measure() may be called in between.
   void compute(const Vec3 &strain_now, const Vec3 &strain_next);
   void move() { model.move(); }
 
-  /// Mean stresses of x, y, z from the forces on walls and boundary, tension positive [Pa] (Wellmann, fig. 6.5a).
-  Vec3 stress() const;
+  /// Stresses are means from the forces on walls and boundary (Wellmann, fig. 6.5a). @param time [s]
+  /// @throws RunError where the run has diverged, naming the time
+  SpecimenSample measure(double time) const;
 
-  SpecimenEnergy energy() const;
+  /// Files of the models that are there.
+  std::vector<std::pair<std::string, PictureWriter>> pictures() const;
 
-  double time_step() const { return step; }
+  std::int64_t n_grains() const { return model.grains() ? model.grains()->particles.size() : 0; }
+  std::int64_t n_undecided() const { return model.grains() ? model.grains()->contacts.n_undecided() : 0; }
   Vec3 reference_edges() const { return edges; } ///< [m]
 
   coupling::TwoScaleModel model;
@@ -57,12 +46,19 @@ private:
     std::optional<fe::ExplicitBody::Constraint> constraint; ///< of the continuum
   };
 
-  void join(const TriaxialParameters &parameters, const std::vector<Vec3> &reference_by_id, double layer);
+  void join(const std::vector<Vec3> &reference_by_id, double layer);
+  void check_stable_step() const;
+  Vec3 stress() const;
 
+  const TriaxialParameters &parameters;
   dem::Box cube;
-  Vec3 edges, current_edges;
+  Vec3 edges, strain = Vec3::Zero();
   double step;
   std::array<Face, 6> faces; ///< x-, x+, y-, y+, z-, z+
 };
+
+/// The state of a loading, by name; in reading the specimen is made.
+void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, LoadingStart &start,
+                   const TriaxialParameters &parameters);
 
 } // namespace bergamo::driver

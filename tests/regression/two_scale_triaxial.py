@@ -114,6 +114,34 @@ class Restart(Case):
         meshes = [re.sub(rb"<!--.*?-->", b"", (run / "continuum_0001.vtu").read_bytes(), flags=re.S) for run in (whole, killed)]
         self.assertEqual(*meshes)
 
+    def test_figures_survive_a_restart(self):
+        """The largest overlap is met early, in a path that unloads: a run that goes on after it still reports it. Lost
+        terminals stop a run like Ctrl-C."""
+        options = ["--set", "Model/kind=grains", "--set", "Loading/path=unloading", "--set",
+                   "Loading/volumetric strain change=0.004", "--set", "Loading/axial strain=0", "--set",
+                   "Output/snapshot interval=1e-3"]
+        whole, parts = self.tmp / "whole", self.tmp / "parts"
+        self.assertEqual(self.run_driver(whole, *options).returncode, 0)
+        rows = history(whole)
+        overlaps = [row["max_overlap_over_radius"] for row in rows]
+        self.assertLess(overlaps.index(max(overlaps)), 0.7 * len(rows))  # else this test shows nothing
+        process = subprocess.Popen(self.command(parts, *options), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None:
+            try:
+                if len((parts / "history.csv").read_text().splitlines()) > 0.8 * len(rows):
+                    break
+            except OSError:
+                pass
+            time.sleep(0.005)
+        process.send_signal(signal.SIGHUP)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(self.run_driver(parts, "--restart", *options).returncode, 0)
+        self.assertEqual((whole / "history.csv").read_bytes(), (parts / "history.csv").read_bytes())
+        summaries = [json.loads((run / "summary.json").read_text()) for run in (whole, parts)]
+        for name in ("max_overlap_over_radius", "energy_residual", "stable_time_step_s", "steps"):
+            self.assertEqual(summaries[0][name], summaries[1][name], name)
+
     def test_interrupt(self):
         """Ctrl-C ends the step, writes a snapshot and says how to go on."""
         out = self.tmp / "run"
@@ -228,6 +256,7 @@ class Failures(Case):
         result = self.run_driver(self.tmp / "run", "--set", "Loading/time step=1.5e-6", "--set",
                                  "Loading/isotropic time=0.02")
         self.assert_refused(result, "diverged", "time step", code=1)
+        self.assertIn("warning: Loading/time step is 1.5e-06 s", result.stderr)  # also with --quiet
 
 
 if __name__ == "__main__":

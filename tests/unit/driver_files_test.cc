@@ -108,11 +108,13 @@ TEST_CASE("force moves the earlier run aside, but not before the folder is opene
   put(parent / "run/history.csv", "old");
   put(parent / "run/grains_0001.vtu", "old");
   put(parent / "run/plots/picture.png", "old");
+  put(parent / "run/ensemble.csv", "old");
   put(parent / "run/notes.txt", "mine");
+  put(parent / "run/notes.vtu", "mine");
   put(parent / "run/summary.json.partial", "half");
   put(parent / "run/previous_run/history.csv", "older");
   {
-    RunFolder folder(parent / "run", FolderMode::force);
+    RunFolder folder(parent / "run", FolderMode::force, {"ensemble.csv"});
     CHECK(content_of(parent / "run/history.csv") == "old");
     CHECK(content_of(parent / "run/previous_run/history.csv") == "older");
     folder.open();
@@ -120,8 +122,10 @@ TEST_CASE("force moves the earlier run aside, but not before the folder is opene
   CHECK(content_of(parent / "run/previous_run/history.csv") == "old");
   CHECK(fs::exists(parent / "run/previous_run/grains_0001.vtu"));
   CHECK(fs::exists(parent / "run/previous_run/plots/picture.png"));
+  CHECK(fs::exists(parent / "run/previous_run/ensemble.csv"));
   CHECK(content_of(parent / "run/notes.txt") == "mine");
-  CHECK(n_files(parent / "run") == 2);
+  CHECK(content_of(parent / "run/notes.vtu") == "mine");
+  CHECK(n_files(parent / "run") == 3);
 
   RunFolder(parent / "run", FolderMode::force).open(); // nothing of a run there: what was moved aside stays
   CHECK(content_of(parent / "run/previous_run/history.csv") == "old");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <sstream>
+#include <vector>
 
 using namespace bergamo::driver;
 using Catch::Matchers::Contains;
@@ -99,29 +100,76 @@ TEST_CASE("the time left follows from the stage's own fraction, also after a res
   CHECK_THAT(display.stream.str(), Contains("  5 steps/s  50 particle-steps/s  1 min 20 s left"));
 }
 
-TEST_CASE("quiet is silent")
+TEST_CASE("quiet is silent but for warnings")
 {
   for (const bool is_terminal : {false, true})
   {
     Display display;
     Progress progress(display.options(is_terminal, true));
     run_stage(display, progress);
-    progress.message("hello");
     CHECK(display.stream.str().empty());
+    progress.begin_stage("shear");
+    progress.warn("the step is long");
+    CHECK(display.stream.str() == "warning: the step is long\n");
   }
 }
 
-TEST_CASE("a signal raises the flag that the run loop reads")
+namespace
 {
-  const auto old_interrupt = std::signal(SIGINT, SIG_DFL);
-  const auto old_terminate = std::signal(SIGTERM, SIG_DFL);
+
+/// The handlers of the signals that stop a run, put back at the end, and no flag left behind.
+class SavedHandlers
+{
+public:
+  SavedHandlers()
+  {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+      handlers.push_back(std::signal(signal, SIG_DFL));
+  }
+  ~SavedHandlers()
+  {
+    clear_interrupt();
+    for (const int signal : {SIGHUP, SIGTERM, SIGINT})
+    {
+      std::signal(signal, handlers.back());
+      handlers.pop_back();
+    }
+  }
+
+private:
+  std::vector<void (*)(int)> handlers;
+};
+
+} // namespace
+
+TEST_CASE("each signal that stops a run raises the flag that its loop reads")
+{
+  const SavedHandlers saved;
   install_interrupt_handler();
-  CHECK_FALSE(interrupted());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  {
+    CHECK_FALSE(interrupted());
+    std::raise(signal);
+    CHECK(interrupted());
+    CHECK(interrupt_signal() == signal);
+    clear_interrupt();
+  }
+}
+
+TEST_CASE("a hangup that follows another signal does not end the program before its snapshot")
+{
+  const SavedHandlers saved;
+  install_interrupt_handler();
   std::raise(SIGTERM);
-  CHECK(interrupted());
+  std::raise(SIGHUP); // the default would end this test program
   CHECK(interrupt_signal() == SIGTERM);
-  clear_interrupt();
+}
+
+TEST_CASE("a run under nohup outlives its terminal")
+{
+  const SavedHandlers saved;
+  std::signal(SIGHUP, SIG_IGN);
+  install_interrupt_handler();
+  std::raise(SIGHUP);
   CHECK_FALSE(interrupted());
-  std::signal(SIGINT, old_interrupt);
-  std::signal(SIGTERM, old_terminate);
 }

@@ -70,16 +70,21 @@ def draw_comparison(folders, runs):
     run_data.save_diagram(figure, folders[0], "comparison.png")
 
 
+def draw(folder, others):
+    """The stresses of a run, and beside those of others where there are any."""
+    folders = [folder] + others
+    runs = [read_stresses(f) for f in folders]
+    draw_one(folder, runs[0])
+    if others:
+        draw_comparison(folders, runs)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run_folder", metavar="RUN_FOLDER")
     parser.add_argument("--compare", nargs="+", default=[], metavar="FOLDER", help="runs to draw together with it")
     arguments = parser.parse_args()
-    folders = [arguments.run_folder] + arguments.compare
-    runs = [read_stresses(folder) for folder in folders]
-    draw_one(folders[0], runs[0])
-    if arguments.compare:
-        draw_comparison(folders, runs)
+    draw(arguments.run_folder, arguments.compare)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 #include "dem/core/types.h"
 
-namespace bergamo::driver
+namespace bergamo::dem
 {
 
 /// The three paths of the shear phase (Wellmann, fig. 6.4b).
@@ -37,4 +37,4 @@ struct StrainProgram
   int stage(double time) const { return time < isotropic_time ? 1 : 2; }
 };
 
-} // namespace bergamo::driver
+} // namespace bergamo::dem

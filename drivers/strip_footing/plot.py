@@ -8,8 +8,12 @@ Reads history.csv, summary.json and the last continuum_*.vtu and writes RUN_FOLD
 import argparse
 import glob
 import os
+import sys
+from pathlib import Path
 
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots"))
 import run_data
 from run_data import COLOURS
 

@@ -1,11 +1,11 @@
-#include "drivers/two_scale_triaxial/strain_program.h"
+#include "dem/loading/strain_program.h"
 
 #include "dem/core/error.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace bergamo::driver
+namespace bergamo::dem
 {
 namespace
 {
@@ -29,6 +29,7 @@ double progress(const double tau, const double ramp)
 
 void StrainProgram::validate() const
 {
+
   require(std::abs(isotropic_volumetric_strain) <= 0.1, "isotropic volumetric strain", isotropic_volumetric_strain,
           "in [-0.1, 0.1]: the continuum is a small-strain model");
   require(std::abs(axial_strain) <= 0.1, "axial strain", axial_strain,
@@ -53,4 +54,4 @@ Vec3 StrainProgram::strain(const double time) const
   return first * Vec3::Constant(isotropic_volumetric_strain / 3.) + second * Vec3(lateral, lateral, axial_strain);
 }
 
-} // namespace bergamo::driver
+} // namespace bergamo::dem

@@ -11,9 +11,12 @@ Reads ensemble.csv and samples/NNNN/history.csv and writes into RUN_FOLDER/plots
 
 import argparse
 import os
+import sys
+from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots"))
 import run_data
 from run_data import COLOURS
 

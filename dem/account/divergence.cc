@@ -1,4 +1,4 @@
-#include "dem/divergence.h"
+#include "dem/account/divergence.h"
 
 #include "dem/core/error.h"
 #include "dem/core/parallel.h"

@@ -9,11 +9,14 @@ their tangent, the dilation line) and RUN_FOLDER/plots/fitted_continuum.png (gra
 import argparse
 import json
 import os
+import sys
+from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots"))
 import run_data
-from triaxial_ensemble import by_pressure, colour_of
+from plot_ensemble import by_pressure, colour_of
 
 LINE = {"color": "#000000", "linestyle": "--", "linewidth": 1.2, "zorder": 10}
 

@@ -7,9 +7,12 @@ deviations of both) and writes RUN_FOLDER/plots/triaxial_ensemble.png.
 """
 
 import argparse
+import sys
+from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots"))
 import run_data
 from run_data import COLOURS
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "coupling/adapter/two_scale_model.h"
+
+namespace bergamo::coupling
+{
+
+/// Energies of both models and of their coupling, and what flowed in and out since their accounts were opened [J].
+struct ModelEnergy
+{
+  double kinetic = 0., grains_elastic = 0., continuum_elastic = 0., coupling = 0.;
+  double friction_loss = 0., viscous_loss = 0., plastic_loss = 0.;
+  double wall_work = 0.;                         ///< of the walls on grains and of the boundary on the continuum
+  double gravity_work = 0., curvature_work = 0.; ///< see dem::ContactLosses
+
+  double balance() const
+  {
+    return kinetic + grains_elastic + continuum_elastic + coupling + friction_loss + viscous_loss + plastic_loss -
+           wall_work - gravity_work - curvature_work;
+  }
+};
+
+/// Of the present step: to be called between kick() and move().
+ModelEnergy energy_of(const TwoScaleModel &model);
+
+} // namespace bergamo::coupling

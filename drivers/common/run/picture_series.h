@@ -1,0 +1,36 @@
+#pragma once
+
+#include "drivers/common/run/state_visitor.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bergamo::driver
+{
+
+/// Makes the file of that path. Throws RunError where it cannot be written.
+using PictureWriter = std::function<void(const std::filesystem::path &)>;
+
+/// Files of a run's models at several times, for ParaView: NAME_0000.vtu and so on of each model, and NAME.pvd, which
+/// joins them.
+class PictureSeries
+{
+public:
+  explicit PictureSeries(std::filesystem::path f) : folder(std::move(f)) {}
+
+  /// @param time simulated [s] @param models the same names at each time. Throws RunError where a file cannot be
+  /// written
+  void add(double time, const std::vector<std::pair<std::string, PictureWriter>> &models);
+
+  /// The times of the files that are there.
+  void visit(StateVisitor &visit) { visit("picture_times", times); }
+
+private:
+  std::filesystem::path folder;
+  std::vector<double> times; ///< [s]
+};
+
+} // namespace bergamo::driver

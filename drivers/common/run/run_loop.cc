@@ -1,0 +1,48 @@
+#include "drivers/common/run/run_loop.h"
+
+#include "drivers/common/interrupt.h"
+
+#include <utility>
+
+namespace bergamo::driver
+{
+
+RunLoop::RunLoop(SnapshotPlan plan, WallClock clock)
+    : plan_(std::move(plan)), snapshot_is_due_(every_wall_time(plan_.interval, std::move(clock)))
+{
+}
+
+void RunLoop::visit(StateVisitor &visit)
+{
+  visit("loop/step", step_);
+  visit("loop/last_time", last_time_);
+}
+
+bool RunLoop::run(const Stepping &stepping, const std::vector<Action> &actions)
+{
+  if (std::exchange(stage_is_done_, false))
+    step_ = 0;
+  if (stepping.time() <= last_time_) // a stage with a time of its own
+    last_time_ = -std::numeric_limits<double>::infinity();
+  for (;; ++step_, ++steps_here_)
+  {
+    const bool is_stopped = interrupted() && !stepping.is_last();
+    if (snapshot_is_due_({}) || is_stopped)
+      plan_.write();
+    if (is_stopped)
+      return false;
+    stepping.compute();
+    const Moment now{step_, stepping.time(), last_time_, stepping.is_last()};
+    for (const auto &[trigger, act] : actions)
+      if (trigger(now))
+        act();
+    last_time_ = now.time;
+    if (now.is_last)
+      break;
+    stepping.move();
+  }
+  stage_is_done_ = true;
+  return true;
+}
+
+} // namespace bergamo::driver

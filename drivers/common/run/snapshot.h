@@ -1,0 +1,38 @@
+#pragma once
+
+#include "drivers/common/run/state_visitor.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace bergamo::driver
+{
+
+/// One list of all that a restart needs, by name, for writing and for reading.
+using Visit = std::function<void(StateVisitor &)>;
+
+/// The snapshot of a run: its state to the last bit, and the parameters that it belongs to. May be used by several
+/// threads at a time: HDF5 gets them one by one.
+class Snapshot
+{
+public:
+  /// @param kind what the snapshot is of ("strip footing"); files of another kind are refused
+  /// @param parameters resolved text of all parameters
+  Snapshot(std::filesystem::path path, std::string kind, std::string parameters);
+
+  const std::filesystem::path &path() const { return path_; }
+
+  /// Puts the file in place, whole or not at all. Throws RunError as ArchiveWriter does.
+  void write(const Visit &visit) const;
+
+  /// Throws RunError for a damaged or foreign file, ConfigError, naming the first difference, where the parameters are
+  /// others than those of the run that wrote it.
+  void read(const Visit &visit) const;
+
+private:
+  std::filesystem::path path_;
+  std::string kind_, parameters_;
+};
+
+} // namespace bergamo::driver
