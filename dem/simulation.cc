@@ -87,12 +87,12 @@ void Simulation::check_cell() const
     refuse("has no walls, but " + std::to_string(walls.size()) + " were given: leave them out");
   if (p.gravity != Vec3::Zero())
     refuse("would fall for ever: set gravity to zero");
-  const double range = contact_range(particles, watch.verlet_distance);
-  if (particles.cell.edges.minCoeff() < 2. * range)
+  const double least = least_cell_edge(particles, watch.verlet_distance);
+  if (particles.cell.edges.minCoeff() < least)
     refuse("of edge " + std::to_string(particles.cell.edges.minCoeff()) +
            " m is too small: a grain would touch another "
            "one twice; it needs at least two ranges of contacts, " +
-           std::to_string(2. * range) + " m: make it larger or the grains smaller");
+           std::to_string(least) + " m: make it larger or the grains smaller");
 }
 
 void Simulation::renew_neighbours()
@@ -100,7 +100,7 @@ void Simulation::renew_neighbours()
   check_finite(); // places that are no numbers have no cell
   if (particles.cell.is_periodic())
   {
-    const double least = 2. * contact_range(particles, watch.verlet_distance);
+    const double least = least_cell_edge(particles, watch.verlet_distance);
     if (particles.cell.edges.minCoeff() < least)
       throw RunError("the periodic cell has shrunk to an edge of " + std::to_string(particles.cell.edges.minCoeff()) +
                      " m at time " + std::to_string(time) + " s, less than two ranges of contacts, " +

@@ -58,9 +58,14 @@ bool NeighbourWatch::must_renew(const Particles &particles, const std::vector<Pl
   return largest > limit;
 }
 
-double contact_range(const Particles &p, const double verlet_distance)
+double least_cell_edge(const Particles &p, const double verlet_distance)
 {
-  return 2. * *std::max_element(p.parts.bounding_radius.begin(), p.parts.bounding_radius.end()) + verlet_distance;
+  double range = verlet_distance, arm = 0.;
+  for (const double radius : p.parts.bounding_radius)
+    range = std::max(range, 2. * radius + verlet_distance);
+  for (const Vec3 &place : p.parts.place)
+    arm = std::max(arm, place.norm());
+  return 2. * (range + arm);
 }
 
 } // namespace bergamo::dem

@@ -49,7 +49,10 @@ private:
   Vec3 edges_when_built = Vec3::Zero(); // of the periodic cell [m]
 };
 
-/// Largest distance of the centres of two parts that may be candidates [m].
-double contact_range(const Particles &particles, double verlet_distance);
+/// Edges that a periodic cell has at least [m]: two ranges of contacts, the largest distances of the centres of two
+/// parts that may be candidates, and twice the largest distance of a part from its particle's centre. Then two parts
+/// touch in one image alone, no particle reaches its own image, and a part lies no further outside the cell than
+/// build_verlet_list() allows.
+double least_cell_edge(const Particles &particles, double verlet_distance);
 
 } // namespace bergamo::dem

@@ -1,18 +1,16 @@
 #include "dem/packing/grading.h"
 
 #include "dem/core/error.h"
+#include "dem/packing/draw_until.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 
 namespace bergamo::dem
 {
 namespace
 {
 
-constexpr std::size_t largest_number = std::numeric_limits<std::int32_t>::max();
 constexpr double smallest_size = 100. * shape_limits::smallest_half_axis,
                  largest_size = 0.01 * shape_limits::largest_half_axis; // [m], whatever the shapes
 
@@ -116,26 +114,11 @@ Superquadric draw_grain(const SieveCurve &curve, std::mt19937_64 &generator)
 
 std::vector<Superquadric> draw_grains(const Grading &grading, const double solid_volume, std::mt19937_64 &generator)
 {
-  require(solid_volume > 0. && std::isfinite(solid_volume), "solid volume of the grains", solid_volume,
-          "positive and finite [m^3]");
   return std::visit(
       [&](const auto &sand)
       {
         sand.validate();
-        std::vector<Superquadric> grains;
-        double sum = 0.;
-        while (true)
-        {
-          const Superquadric grain = draw_grain(sand, generator);
-          const double v = volume(grain);
-          if (sum + 0.5 * v > solid_volume && !grains.empty())
-            return grains;
-          sum += v;
-          grains.push_back(grain);
-          require(grains.size() < largest_number, "number of grains of the solid volume",
-                  std::round(solid_volume / sum * static_cast<double>(grains.size())),
-                  "below 2^31; take larger grains or a smaller space");
-        }
+        return draw_until(solid_volume, [&] { return draw_grain(sand, generator); });
       },
       grading);
 }

@@ -12,27 +12,38 @@ namespace
 {
 
 constexpr double solid_fraction_tolerance = 0.001;
+constexpr double largest_added = 0.35; ///< solid fraction of a random addition
 
-double total_volume(const std::vector<Superquadric> &grains)
+Superquadric scaled(Superquadric grain, const double factor)
 {
-  double sum = 0.;
-  for (const Superquadric &grain : grains)
-    sum += volume(grain);
-  return sum;
+  grain.half_axes *= factor;
+  return grain;
 }
 
-std::vector<Superquadric> scaled(std::vector<Superquadric> grains, const double factor)
+Clump scaled(const Clump &grain, const double factor)
 {
-  for (Superquadric &grain : grains)
-    grain.half_axes *= factor;
-  return grains;
+  return grain.scaled(factor);
+}
+
+template <class Grain>
+std::vector<Grain> scaled(const std::vector<Grain> &grains, const double factor)
+{
+  std::vector<Grain> others;
+  others.reserve(grains.size());
+  for (const Grain &grain : grains)
+    others.push_back(scaled(grain, factor));
+  return others;
 }
 
 /// The factor that makes up for the part of a grain that is missing or too much.
-double size_factor(const std::vector<Superquadric> &grains, const double solid_volume)
+template <class Grain>
+double size_factor(const std::vector<Grain> &grains, const double solid_volume)
 {
   constexpr double largest_change = 0.01;
-  const double factor = std::cbrt(solid_volume / total_volume(grains));
+  double total_volume = 0.;
+  for (const Grain &grain : grains)
+    total_volume += volume(grain);
+  const double factor = std::cbrt(solid_volume / total_volume);
   if (std::abs(factor - 1.) > largest_change)
   {
     std::ostringstream message;
@@ -50,10 +61,16 @@ void PackingParameters::validate() const
 {
   require(solid_fraction > 0. && solid_fraction <= 0.7, "solid fraction of the packing", solid_fraction,
           "in (0, 0.7]; denser packings come from compression by the DEM");
-  require(start_solid_fraction > 0. && start_solid_fraction <= 0.35, "solid fraction of the random addition",
+  require(start_solid_fraction > 0. && start_solid_fraction <= largest_added, "solid fraction of the random addition",
           start_solid_fraction, "in (0, 0.35]");
   require(density > 0. && std::isfinite(density), "density of the grains", density, "positive [kg/m^3]");
   tightening.validate();
+}
+
+void PackingParameters::validate_for_clumps() const
+{
+  require(solid_fraction <= largest_added, "solid fraction of a packing of clumps", solid_fraction,
+          "in (0, 0.35]: clumps are placed at random and not tightened; the compression by the DEM makes them dense");
 }
 
 double PackingReport::trials_per_grain() const
@@ -77,7 +94,7 @@ PackedGrains pack_grains(const Grading &grading, const PackingSpace &space, cons
   PackedGrains packed;
   PackingReport &report = packed.report;
   report.size_factor = size_factor(grains, solid_volume);
-  grains = scaled(std::move(grains), report.size_factor);
+  grains = scaled(grains, report.size_factor);
   double largest = 0.;
   for (const Superquadric &grain : grains)
     largest = std::max(largest, bounding_radius(grain));
@@ -102,6 +119,30 @@ PackedGrains pack_grains(const Grading &grading, const PackingSpace &space, cons
   }
   report.solid_fraction = solid / space.volume();
   report.has_reached_target = std::abs(report.solid_fraction - parameters.solid_fraction) <= solid_fraction_tolerance;
+  return packed;
+}
+
+PackedGrains pack_clumps(const ClumpGrading &grading, const PackingSpace &space, const PackingParameters &parameters,
+                         const std::uint64_t seed)
+{
+  parameters.validate();
+  parameters.validate_for_clumps();
+  std::mt19937_64 generator(seed);
+  const double solid_volume = parameters.solid_fraction * space.volume();
+  std::vector<Clump> grains = draw_clumps(grading, solid_volume, generator);
+  PackedGrains packed;
+  PackingReport &report = packed.report;
+  report.size_factor = size_factor(grains, solid_volume);
+  grains = scaled(grains, report.size_factor);
+  RandomAddition addition = place_at_random(grains, space, generator());
+  report.addition = std::move(addition.rounds);
+  double solid = 0.;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+  {
+    solid += grains[i].volume();
+    packed.particles.add(grains[i], parameters.density, addition.places.position[i], addition.places.orientation[i]);
+  }
+  report.solid_fraction = solid / space.volume();
   return packed;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/packing/clump_grading.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/tightening.h"
 #include "dem/state/particles.h"
@@ -20,6 +21,9 @@ struct PackingParameters
 
   /// Throws ConfigError for a value out of its range.
   void validate() const;
+
+  /// Throws ConfigError for a solid fraction that a random addition does not reach.
+  void validate_for_clumps() const;
 };
 
 /// What came out.
@@ -47,6 +51,14 @@ struct PackedGrains
 /// @throws ConfigError for a space that is too small for the grains, or a start solid fraction at which they find no
 /// place. A tightening that gets stuck below the target is reported, not thrown.
 PackedGrains pack_grains(const Grading &grading, const PackingSpace &space, const PackingParameters &parameters,
+                         std::uint64_t seed);
+
+/// Fills a space with clumps: draws them and places them at random at their full size. They are not tightened, so the
+/// solid fraction is at most 0.35 (some 0.25 works for most shapes); the start solid fraction and the tightening of the
+/// parameters do not count. The same bits for the same seed on any number of threads.
+/// @throws ConfigError for a solid fraction above that, for a space that is too small for the grains, or if they find
+/// no place
+PackedGrains pack_clumps(const ClumpGrading &grading, const PackingSpace &space, const PackingParameters &parameters,
                          std::uint64_t seed);
 
 } // namespace bergamo::dem

@@ -4,7 +4,7 @@
 #include "dem/core/parallel.h"
 #include "dem/packing/distribution.h"
 #include "dem/packing/grain_grid.h"
-#include "dem/packing/overlap.h"
+#include "dem/packing/grain_parts.h"
 #include "dem/packing/random_stream.h"
 
 #include <algorithm>
@@ -21,8 +21,7 @@ namespace
 
 struct Trial
 {
-  Vec3 position;
-  Quaternion orientation;
+  GrainPlace place;
   bool fits = false;                ///< between the walls and the placed grains
   std::vector<std::int32_t> rivals; ///< trials of larger grains that it would overlap
 };
@@ -30,9 +29,8 @@ struct Trial
 class Addition
 {
 public:
-  Addition(const std::span<const Superquadric> grains, const PackingSpace &space, const std::uint64_t seed)
-      : grains(grains), space(space), seed(seed), radius(each(grains, bounding_radius)),
-        inscribed(each(grains, inscribed_radius)), grid(space, range()), trial_grid(space, range())
+  Addition(const GrainParts &grains, const PackingSpace &space, const std::uint64_t seed)
+      : grains(grains), space(space), seed(seed), grid(space, range()), trial_grid(space, range())
   {
     space.require_range(range());
     require_room();
@@ -41,7 +39,7 @@ public:
     remaining.resize(grains.size());
     std::iota(remaining.begin(), remaining.end(), 0);
     std::stable_sort(remaining.begin(), remaining.end(),
-                     [&](const auto i, const auto j) { return radius[i] > radius[j]; });
+                     [&](const auto i, const auto j) { return grains.bounding_radius(i) > grains.bounding_radius(j); });
   }
 
   RandomAddition run()
@@ -67,26 +65,13 @@ private:
   static constexpr std::size_t least_tried = 50;                                // in a round
   static constexpr std::int64_t first_trials = 100000, trials_per_grain = 1000; // before the addition gives up
 
-  static std::vector<double> each(const std::span<const Superquadric> grains,
-                                  double (*const measure)(const Superquadric &))
-  {
-    std::vector<double> values(grains.size());
-    parallel_for(grains.size(), [&](const std::size_t i) { values[i] = measure(grains[i]); });
-    return values;
-  }
+  double range() const { return grains.size() == 0 ? 1. : 2. * grains.largest_bounding_radius(); }
 
-  PlacedGrain at(const std::int32_t i, const Vec3 &position, const Quaternion &orientation) const
-  {
-    return {grains[i], make_pose(grains[i], position, orientation), radius[i], inscribed[i]};
-  }
-
-  double range() const { return radius.empty() ? 1. : 2. * *std::max_element(radius.begin(), radius.end()); }
-
-  /// A grain is at least as wide as its inscribed sphere in every direction.
+  /// A grain is at least as wide as a sphere inside it in every direction.
   void require_room() const
   {
     const double edge = space.bounds().edges().minCoeff();
-    const double widest = inscribed.empty() ? 0. : 2. * *std::max_element(inscribed.begin(), inscribed.end());
+    const double widest = 2. * grains.largest_inscribed_radius();
     if (widest < edge || space.is_periodic())
       return;
     std::ostringstream message;
@@ -102,7 +87,7 @@ private:
     trial_grid.clear();
     for (std::size_t k = 0; k < trials.size(); ++k)
       if (trials[k].fits)
-        trial_grid.add(static_cast<std::int32_t>(k), trials[k].position, radius[remaining[k]]);
+        trial_grid.add(static_cast<std::int32_t>(k), trials[k].place.position, grains.bounding_radius(remaining[k]));
     parallel_for(trials.size(), [&](const std::size_t k) { find_rivals(static_cast<std::int32_t>(k)); });
 
     std::vector<std::int32_t> left;
@@ -115,9 +100,9 @@ private:
         left.push_back(remaining[k]);
         continue;
       }
-      result.places.position[remaining[k]] = t.position;
-      result.places.orientation[remaining[k]] = t.orientation;
-      grid.add(remaining[k], t.position, radius[remaining[k]]);
+      result.places.position[remaining[k]] = t.place.position;
+      result.places.orientation[remaining[k]] = t.place.orientation;
+      grid.add(remaining[k], t.place.position, grains.bounding_radius(remaining[k]));
     }
     left.insert(left.end(), remaining.begin() + n_tried, remaining.end());
     remaining.swap(left);
@@ -128,29 +113,28 @@ private:
     RandomStream random(seed, result.rounds.size(), i);
     Trial t;
     for (int d = 0; d < 3; ++d)
-      t.position[d] = random.uniform(space.bounds().low[d], space.bounds().high[d]);
+      t.place.position[d] = random.uniform(space.bounds().low[d], space.bounds().high[d]);
     const double u = random.uniform(), v = random.uniform(), w = random.uniform();
-    t.orientation = uniform_rotation(u, v, w);
+    t.place.orientation = uniform_rotation(u, v, w);
     // The spheres first: they decide most trials.
     bool is_free = true;
     std::vector<std::pair<std::int32_t, Vec3>> near;
-    grid.any_near(t.position, radius[i],
+    grid.any_near(t.place.position, grains.bounding_radius(i),
                   [&](const std::int32_t j, const Vec3 &centre_line)
                   {
-                    const double closest = inscribed[i] + inscribed[j];
+                    const double closest = grains.core_radius(i) + grains.core_radius(j);
                     is_free = centre_line.squaredNorm() > closest * closest;
                     near.emplace_back(j, centre_line);
                     return !is_free;
                   });
     if (!is_free)
       return t;
-    const PlacedGrain grain = at(i, t.position, t.orientation);
     const auto is_apart = [&](const auto &other)
     {
       const auto &[j, centre_line] = other;
-      return are_apart(grain, at(j, result.places.position[j], result.places.orientation[j]), centre_line);
+      return grains.are_apart(i, t.place, j, {result.places.position[j], result.places.orientation[j]}, centre_line);
     };
-    t.fits = space.contains(grain.pose, radius[i]) && std::all_of(near.begin(), near.end(), is_apart);
+    t.fits = grains.is_inside(space, i, t.place) && std::all_of(near.begin(), near.end(), is_apart);
     return t;
   }
 
@@ -159,24 +143,23 @@ private:
     Trial &t = trials[k];
     if (!t.fits)
       return;
-    const PlacedGrain grain = at(remaining[k], t.position, t.orientation);
-    trial_grid.any_near(
-        t.position, radius[remaining[k]],
-        [&](const std::int32_t r, const Vec3 &centre_line)
-        {
-          if (r < k && !are_apart(grain, at(remaining[r], trials[r].position, trials[r].orientation), centre_line))
-            t.rivals.push_back(r);
-          return false;
-        });
+    const std::int32_t i = remaining[k];
+    trial_grid.any_near(t.place.position, grains.bounding_radius(i),
+                        [&](const std::int32_t r, const Vec3 &centre_line)
+                        {
+                          if (r < k && !grains.are_apart(i, t.place, remaining[r], trials[r].place, centre_line))
+                            t.rivals.push_back(r);
+                          return false;
+                        });
   }
 
   [[noreturn]] void give_up() const
   {
     double placed_volume = 0.;
-    for (const Superquadric &grain : grains)
-      placed_volume += volume(grain);
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      placed_volume += grains.volume(i);
     for (const std::int32_t i : remaining)
-      placed_volume -= volume(grains[i]);
+      placed_volume -= grains.volume(i);
     std::ostringstream message;
     message << "the packing does not fit: " << remaining.size() << " of " << grains.size()
             << " grains found no place in the space of " << space.bounds().edges().transpose()
@@ -185,28 +168,18 @@ private:
     throw ConfigError(message.str());
   }
 
-  std::span<const Superquadric> grains;
+  const GrainParts &grains;
   const PackingSpace &space;
   std::uint64_t seed;
-  std::vector<double> radius, inscribed; // [m]
   GrainGrid grid, trial_grid;
   std::vector<std::int32_t> remaining; // large ones first
   std::vector<Trial> trials;           // of the remaining grains
   RandomAddition result;
 };
 
-} // namespace
-
-RandomAddition place_at_random(const std::span<const Superquadric> grains, const PackingSpace &space,
-                               const std::uint64_t seed)
-{
-  for (const Superquadric &grain : grains)
-    grain.validate();
-  return Addition(grains, space, seed).run();
-}
-
-Particles add_at_random(const std::span<const Superquadric> grains, const PackingSpace &space, const double density,
-                        const std::uint64_t seed)
+template <class Grain>
+Particles add_any_at_random(const std::span<const Grain> grains, const PackingSpace &space, const double density,
+                            const std::uint64_t seed)
 {
   require(density > 0. && std::isfinite(density), "density of the grains", density, "positive [kg/m^3]");
   const GrainPlaces places = place_at_random(grains, space, seed).places;
@@ -214,6 +187,31 @@ Particles add_at_random(const std::span<const Superquadric> grains, const Packin
   for (std::size_t i = 0; i < grains.size(); ++i)
     particles.add(grains[i], density, places.position[i], places.orientation[i]);
   return particles;
+}
+
+} // namespace
+
+RandomAddition place_at_random(const std::span<const Superquadric> grains, const PackingSpace &space,
+                               const std::uint64_t seed)
+{
+  return Addition(GrainParts(grains), space, seed).run();
+}
+
+RandomAddition place_at_random(const std::span<const Clump> grains, const PackingSpace &space, const std::uint64_t seed)
+{
+  return Addition(GrainParts(grains), space, seed).run();
+}
+
+Particles add_at_random(const std::span<const Superquadric> grains, const PackingSpace &space, const double density,
+                        const std::uint64_t seed)
+{
+  return add_any_at_random(grains, space, density, seed);
+}
+
+Particles add_at_random(const std::span<const Clump> grains, const PackingSpace &space, const double density,
+                        const std::uint64_t seed)
+{
+  return add_any_at_random(grains, space, density, seed);
 }
 
 } // namespace bergamo::dem

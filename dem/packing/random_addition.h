@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/packing/space.h"
+#include "dem/shape/rigid_clump.h"
 #include "dem/state/particles.h"
 
 #include <cstdint>
@@ -38,9 +39,11 @@ struct RandomAddition
 /// divided by regions, no place or direction that is preferred. @throws ConfigError for impossible grains, and naming
 /// the solid fraction reached if they find no place
 RandomAddition place_at_random(std::span<const Superquadric> grains, const PackingSpace &space, std::uint64_t seed);
+RandomAddition place_at_random(std::span<const Clump> grains, const PackingSpace &space, std::uint64_t seed);
 
 /// The same as particles. @param density [kg/m^3]
 Particles add_at_random(std::span<const Superquadric> grains, const PackingSpace &space, double density,
                         std::uint64_t seed);
+Particles add_at_random(std::span<const Clump> grains, const PackingSpace &space, double density, std::uint64_t seed);
 
 } // namespace bergamo::dem

@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 #include "dem/shape/orientation.h"
+#include "dem/shape/rigid_clump.h"
 
 #include <algorithm>
 #include <limits>
@@ -55,34 +56,42 @@ void check_length(const char *name, const std::size_t length, const std::size_t 
 
 } // namespace
 
-void Particles::add(const Superquadric &new_shape, const double density, const Vec3 &new_position,
+void Particles::add(const Superquadric &shape, const double density, const Vec3 &new_position,
                     const Quaternion &new_orientation, const std::int32_t material)
 {
-  new_shape.validate();
+  add(Clump(shape), density, new_position, new_orientation, material);
+}
+
+void Particles::add(const Clump &clump, const double density, const Vec3 &new_position,
+                    const Quaternion &new_orientation, const std::int32_t material)
+{
   require(density > 0. && std::isfinite(density), "density of a grain", density, "positive [kg/m^3]");
   require_finite(new_position, "place of a grain");
   const Quaternion unit = unit_orientation(new_orientation);
-  const double radius = dem::bounding_radius(new_shape);
   const auto particle = static_cast<std::int32_t>(size());
   id.push_back(particle);
-  volume.push_back(dem::volume(new_shape));
-  mass.push_back(density * volume.back());
-  inertia.push_back(density * inertia_per_density(new_shape));
-  bounding_radius.push_back(radius);
+  volume.push_back(clump.volume());
+  mass.push_back(density * clump.volume());
+  inertia.push_back(density * clump.inertia_per_density());
+  bounding_radius.push_back(clump.bounding_radius());
   position.push_back(new_position);
   orientation.push_back(unit);
   for (auto *motion : {&velocity, &angular_momentum, &drift_velocity, &angular_velocity, &force, &torque})
     motion->push_back(Vec3::Zero());
   weight.push_back(1.);
 
-  parts.particle.push_back(particle);
-  parts.shape.push_back(new_shape);
-  parts.material.push_back(material);
-  parts.place.push_back(Vec3::Zero());
-  parts.turn.push_back(Quaternion::Identity());
-  parts.bounding_radius.push_back(radius);
-  parts.reach.push_back(radius);
-  parts.motion.push_back(0.);
+  for (const ClumpPart &part : clump.parts())
+  {
+    const double radius = dem::bounding_radius(part.shape);
+    parts.particle.push_back(particle);
+    parts.shape.push_back(part.shape);
+    parts.material.push_back(material);
+    parts.place.push_back(part.position);
+    parts.turn.push_back(part.orientation);
+    parts.bounding_radius.push_back(radius);
+    parts.reach.push_back(part.position.norm() + radius);
+    parts.motion.push_back(0.);
+  }
   first_part.push_back(static_cast<std::int32_t>(parts.size()));
 }
 
@@ -120,6 +129,9 @@ void Particles::check(const std::int32_t n_materials) const
   Parts::visit_fields(parts,
                       [&](const char *name, const auto &values) { check_length(name, values.size(), parts.size()); });
   check_length("first_part", first_part.size() - 1, n);
+  if (first_part.front() != 0 || static_cast<std::size_t>(first_part.back()) != parts.size())
+    throw ConfigError("the parts of the grains end at " + std::to_string(first_part.back()) + " of " +
+                      std::to_string(parts.size()) + ": first_part must lead from 0 to all of them");
   for (std::size_t i = 0; i < n; ++i)
   {
     const auto demand = [&](const bool holds, const char *what, const double value, const char *allowed)
@@ -145,9 +157,23 @@ void Particles::check(const std::int32_t n_materials) const
            angular_momentum[i].sum(), "finite [kg m^2/s]");
     if (!external_force.empty())
       demand(external_force[i].allFinite(), "an external force of", external_force[i].sum(), "finite [N]");
+    const std::int32_t n_parts = first_part[i + 1] - first_part[i];
+    demand(n_parts >= 1, "a number of parts of", n_parts, "at least 1");
     for (auto k = first_part[i]; k < first_part[i + 1]; ++k)
     {
       parts.shape[k].validate();
+      demand(parts.particle[k] == static_cast<std::int32_t>(i), "a part that names the particle", parts.particle[k],
+             "the place of the grain in the arrays");
+      demand(parts.place[k].allFinite() && (n_parts > 1 || parts.place[k] == Vec3::Zero()), "a part's place of",
+             parts.place[k].sum(), "finite [m], and zero for the only part of a grain");
+      demand(std::abs(parts.turn[k].norm() - 1.) < 1e-6 &&
+                 (n_parts > 1 || parts.turn[k].coeffs() == Quaternion::Identity().coeffs()),
+             "a part's quaternion of norm", parts.turn[k].norm(),
+             "1, and no rotation for the only part of a grain: turn the grain instead");
+      const double radius = parts.bounding_radius[k];
+      demand(radius > 0. && std::isfinite(radius), "a part's bounding radius", radius, "positive [m]");
+      demand(parts.reach[k] >= radius && parts.reach[k] <= bounding_radius[i], "a part's reach", parts.reach[k],
+             "between its bounding radius and that of the grain [m]");
       demand(parts.material[k] >= 0 && parts.material[k] < n_materials, "the material", parts.material[k],
              "one of the simulation's table, counted from 0");
     }

@@ -11,6 +11,8 @@
 namespace bergamo::dem
 {
 
+class Clump;
+
 /// Rigid bodies as a structure of arrays, all of length size(), and the parts that are their shapes. Global frame, SI
 /// units. Velocity and angular momentum belong to half steps (leapfrog), everything else to whole steps.
 struct Particles
@@ -51,7 +53,7 @@ struct Particles
 
   std::size_t size() const { return position.size(); }
 
-  /// Whether any particle has other parts than one at its centre.
+  /// Whether any particle has more than one part; the only part of a particle lies at its centre, unturned.
   bool has_clumps() const { return parts.size() != size(); }
 
   Vec3 part_position(const std::size_t k) const ///< centre of a part [m]
@@ -64,6 +66,11 @@ struct Particles
   /// Adds a grain at rest, of one part. Mass, inertia and bounding radius follow from shape and density [kg/m^3].
   /// Throws ConfigError as check() does.
   void add(const Superquadric &shape, double density, const Vec3 &position, const Quaternion &orientation,
+           std::int32_t material = 0);
+
+  /// Adds a clump at rest. @param position of its centre of mass [m]; @param orientation of its principal frame to the
+  /// global one; @param material of all its parts. Throws ConfigError as check() does.
+  void add(const Clump &clump, double density, const Vec3 &position, const Quaternion &orientation,
            std::int32_t material = 0);
 
   /// Adds particle i of others, with all its parts, under a new id.
