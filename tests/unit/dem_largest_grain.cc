@@ -9,7 +9,7 @@
 using namespace bergamo;
 using namespace bergamo::dem;
 
-TEST_CASE("no grain of a grading reaches further than its bound, which is no further than stated")
+TEST_CASE("no grain of a grading reaches further than its bound, and some reach half as far")
 {
   GrainDistribution gaussian;
   gaussian.relative_deviation = 0.5;
