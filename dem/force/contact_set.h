@@ -63,6 +63,9 @@ public:
   /// Energy stored in all contacts [J].
   ContactEnergy total_energy() const;
 
+  /// Whether it has candidates, or had any.
+  bool was_used() const { return list.size() > 0 || n_searches > 0; }
+
   std::size_t size() const { return list.size(); }         ///< candidates
   std::int32_t n_touching() const { return store.size(); } ///< contacts
   const VerletList &candidates() const { return list; }

@@ -6,6 +6,7 @@
 #include "dem/state/material.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace bergamo::dem
@@ -88,11 +89,22 @@ public:
   std::int64_t n_searches() const;       ///< since the start
   std::int64_t n_undecided() const;      ///< searches that ended without a decision, since the start
 
-  /// All that a step depends on; see dem/core/state.h.
+  /// All that a step depends on; see dem/core/state.h. Sets that never had a candidate are left out: snapshots of many
+  /// materials stay small. Read into contacts that have none yet.
   template <class Self, class Visit>
   static void visit_state(Self &self, Visit &visit)
   {
-    for_each_kind(self, visit);
+    for_each_kind(self,
+                  [&](const std::string &kind, auto &sets)
+                  {
+                    std::vector<std::int64_t> used;
+                    for (std::size_t law = 0; law < sets.size(); ++law)
+                      if (sets[law].was_used())
+                        used.push_back(static_cast<std::int64_t>(law));
+                    visit((kind + "_laws").c_str(), used);
+                    for (const std::int64_t law : used)
+                      visit((kind + '_' + std::to_string(law)).c_str(), sets.at(law));
+                  });
   }
 
   std::vector<ContactSet<GrainGrain>> grain_grain;
