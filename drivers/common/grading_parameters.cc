@@ -1,14 +1,30 @@
 #include "drivers/common/grading_parameters.h"
 
+#include "drivers/common/clump_parameters.h"
 #include "drivers/common/grain_parameters.h"
 
+#include <random>
 #include <variant>
 
 namespace bergamo::driver
 {
 
+GradingParameters::GradingParameters()
+{
+  // A bent grain of three rounded parts.
+  clump.parts = {{{Vec3(0.7, 0.5, 0.5), 0.8, 0.8}},
+                 {{Vec3(0.4, 0.4, 0.6), 1., 1.}, Vec3(0.8, 0., 0.5)},
+                 {{Vec3(0.45, 0.45, 0.45), 1., 1.}, Vec3(-0.8, 0.1, 0.)}};
+}
+
 void GradingParameters::declare(ParameterFile &file)
 {
+  file.add("Grains", "shape", shape, "superquadrics, or clumps of several, which Grains/Clumps describes",
+           {{"superquadrics", ShapeKind::superquadrics}, {"clumps", ShapeKind::clumps}});
+  file.add_bound("Grains/Clumps", "parts",
+                 "of every clump, relative to one another; the clump is scaled to the volume of a grain drawn from the "
+                 "sizes, or to its opening where these are sieves",
+                 bind_clump(clump));
   file.add("Grains", "sizes", kind, "which of the three sections below counts",
            {{"gaussian", SizeKind::gaussian}, {"uniform", SizeKind::uniform}, {"sieves", SizeKind::sieves}});
   declare_distribution(file, "Grains/Gaussian", gaussian);
@@ -25,9 +41,44 @@ void GradingParameters::declare(ParameterFile &file)
            {.lowest = 0, .highest = 1, .highest_included = false});
 }
 
-void GradingParameters::validate() const
+void GradingParameters::validate(const dem::PackingParameters &packing) const
 {
   std::visit([](const auto &sizes) { sizes.validate(); }, grading());
+  packing.validate();
+  if (shape == ShapeKind::clumps)
+  {
+    clump.validate();
+    packing.validate_for_clumps();
+  }
+}
+
+dem::ClumpGrading GradingParameters::clump_grading() const
+{
+  constexpr double tolerance = 1e-4; // of the volume; the finer it is, the longer overlapping parts take
+  return {dem::Clump(clump, tolerance), grading()};
+}
+
+dem::Particles GradingParameters::draw(const double solid_volume, const std::uint64_t seed) const
+{
+  std::mt19937_64 generator(seed);
+  dem::Particles particles;
+  const auto add = [&](const auto &grains)
+  {
+    for (const auto &grain : grains)
+      particles.add(grain, 1., Vec3::Zero(), Quaternion::Identity());
+  };
+  if (shape == ShapeKind::clumps)
+    add(dem::draw_clumps(clump_grading(), solid_volume, generator));
+  else
+    add(dem::draw_grains(grading(), solid_volume, generator));
+  return particles;
+}
+
+dem::PackedGrains GradingParameters::pack(const dem::PackingSpace &space, const dem::PackingParameters &parameters,
+                                          const std::uint64_t seed) const
+{
+  return shape == ShapeKind::clumps ? dem::pack_clumps(clump_grading(), space, parameters, seed)
+                                    : dem::pack_grains(grading(), space, parameters, seed);
 }
 
 dem::Grading GradingParameters::grading() const

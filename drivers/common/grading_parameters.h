@@ -1,10 +1,18 @@
 #pragma once
 
-#include "dem/packing/grading.h"
+#include "dem/packing/pack_grains.h"
 #include "drivers/common/parameter_file.h"
+
+#include <cstdint>
 
 namespace bergamo::driver
 {
+
+enum class ShapeKind
+{
+  superquadrics,
+  clumps ///< of one kind, in the sizes of the grading
+};
 
 enum class SizeKind
 {
@@ -13,9 +21,13 @@ enum class SizeKind
   sieves    ///< by mass
 };
 
-/// Sizes and shapes of the grains, in one of three ways. SI units.
+/// Sizes of the grains, in one of three ways, and their shapes. SI units.
 struct GradingParameters
 {
+  GradingParameters();
+
+  ShapeKind shape = ShapeKind::superquadrics;
+  dem::ClumpShape clump; ///< relative to a unit size
   SizeKind kind = SizeKind::gaussian;
   dem::GrainDistribution gaussian;
   dem::UniformSizes uniform;
@@ -24,10 +36,20 @@ struct GradingParameters
   /// Binds them to the section "Grains" and its sub-sections.
   void declare(ParameterFile &file);
 
-  /// Throws ConfigError.
-  void validate() const;
+  /// Throws ConfigError, for a packing that cannot be made of such grains too.
+  void validate(const dem::PackingParameters &packing) const;
 
   dem::Grading grading() const;
+
+  /// Grains of that solid volume, all at one place, in the order in which pack() draws them.
+  dem::Particles draw(double solid_volume, std::uint64_t seed) const;
+
+  /// See pack_grains() and pack_clumps().
+  dem::PackedGrains pack(const dem::PackingSpace &space, const dem::PackingParameters &parameters,
+                         std::uint64_t seed) const;
+
+private:
+  dem::ClumpGrading clump_grading() const;
 };
 
 } // namespace bergamo::driver

@@ -1,12 +1,13 @@
 #include "drivers/rve_triaxial/parameters.h"
 
 #include "dem/core/error.h"
+#include "dem/neighbour/neighbour_watch.h"
 #include "dem/packing/random_stream.h"
 #include "drivers/common/grain_parameters.h"
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+#include <numeric>
 #include <string>
 
 namespace bergamo::driver
@@ -63,10 +64,9 @@ void RveParameters::validate() const
 {
   const auto fail = [](const std::string &text) { throw ConfigError(text); };
   simulation.validate();
-  sizes.validate();
   dem::PackingParameters packing;
   packing.solid_fraction = packing_solid_fraction;
-  packing.validate();
+  sizes.validate(packing);
   if (edges.empty() || generation_frictions.empty() || confining_pressures.empty())
     fail("Ensemble: the lists of edges, generation frictions and confining pressures need one value each at least");
   for (std::size_t k = 0; k + 1 < max_stages; ++k)
@@ -85,21 +85,17 @@ void RveParameters::validate() const
 void RveParameters::require_room(const SampleSettings &sample) const
 {
   constexpr double densest = 0.74;
-  std::mt19937_64 generator(sample.seed);
-  double largest = 0., mean = 0.;
-  const auto grains = dem::draw_grains(sizes.grading(), packing_solid_fraction * std::pow(sample.edge, 3), generator);
-  for (const dem::Superquadric &grain : grains)
-  {
-    const double radius = dem::bounding_radius(grain);
-    largest = std::max(largest, radius);
-    mean += radius / static_cast<double>(grains.size());
-  }
+  const dem::Particles grains = sizes.draw(packing_solid_fraction * std::pow(sample.edge, 3), sample.seed);
+  const std::vector<double> &radii = grains.parts.bounding_radius;
+  const double mean = std::accumulate(radii.begin(), radii.end(), 0.) / static_cast<double>(radii.size());
   const double shrinking = std::cbrt(std::min(1., packing_solid_fraction / densest));
-  const double least = 2. * (2. * largest + simulation.verlet_distance * mean) / shrinking;
-  if (grains.empty() || sample.edge < least)
+  const double least = dem::least_cell_edge(grains, simulation.verlet_distance * mean) / shrinking;
+  if (sample.edge < least)
     throw ConfigError("Ensemble/edges: a cell of " + std::to_string(sample.edge) +
                       " m is too small for its grains, which would touch one another twice; it needs " +
                       std::to_string(least) + " m at least: make it larger or the grains smaller");
+  const double largest = *std::max_element(grains.bounding_radius.begin(), grains.bounding_radius.end());
+  dem::PackingSpace::periodic({Vec3::Zero(), Vec3::Constant(sample.edge)}).require_range(2. * largest);
 }
 
 std::vector<SampleSettings> RveParameters::samples() const

@@ -101,7 +101,7 @@ void SampleRun::begin()
   packing.density = parameters.simulation.grain().density;
   const Vec3 edges = Vec3::Constant(settings.edge);
   const auto space = dem::PackingSpace::periodic({Vec3::Zero(), edges});
-  dem::PackedGrains packed = dem::pack_grains(parameters.sizes.grading(), space, packing, settings.seed);
+  dem::PackedGrains packed = parameters.sizes.pack(space, packing, settings.seed);
   if (!packed.report.has_reached_target)
     throw RunError("the geometric packing got stuck at a solid fraction of " +
                    std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +

@@ -19,6 +19,7 @@ from driver_process import SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 SMOKE = Path(__file__).resolve().parents[2] / "drivers" / "rve_triaxial" / "smoke.prm"
+CLUMPS = SMOKE.with_name("clumps.prm")
 NOT_OF_THE_RESULT = {"wall_time_s"}
 
 
@@ -27,11 +28,11 @@ class Case(unittest.TestCase):
         self.tmp = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.tmp, True)
 
-    def command(self, output, *options):
-        return [str(PROGRAM), str(SMOKE), "--output", str(output), "--no-plots", "--quiet", *options]
+    def command(self, output, *options, parameters=SMOKE):
+        return [str(PROGRAM), str(parameters), "--output", str(output), "--no-plots", "--quiet", *options]
 
-    def run_driver(self, output, *options):
-        return subprocess.run(self.command(output, *options), capture_output=True, text=True)
+    def run_driver(self, output, *options, **command):
+        return subprocess.run(self.command(output, *options, **command), capture_output=True, text=True)
 
     def assert_refused(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
@@ -130,6 +131,22 @@ class Results(Case):
             self.assertAlmostEqual(stages[6][-1][f"stress_{axis}_Pa"], -pressure, delta=0.01 * pressure)
 
 
+    def test_clumps(self):
+        """Bent grains of three parts: packed, compressed and sheared."""
+        out = self.tmp / "clumps"
+        result = self.run_driver(out, parameters=CLUMPS)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        row = numbers(out / "ensemble.csv")[0]
+        self.assertGreater(row["n_particles"], 100)
+        self.assertGreater(row["solid_fraction"], 0.45)  # from 0.22: the compression made it dense
+        self.assertGreater(row["coordination_number"], 3)
+        self.assertEqual(row["undecided_contacts"], 0)
+        self.assertLess(row["energy_residual"], 0.02)
+        last = numbers(out / "samples" / "0001" / "history.csv")[-1]
+        self.assertAlmostEqual(last["strain_z"], -0.02, delta=1e-3)
+        self.assertLess(last["stress_zz_Pa"], last["stress_xx_Pa"])
+
+
 class Restart(Case):
     def test_kill(self):
         """Killed twice, and stopped by Ctrl-C once: what it gives in the end is the same to the last bit."""
@@ -197,6 +214,8 @@ class BadInput(Case):
             "Stage 2/inertial number=0.5": ("inertial number",),
             "Grains/sizes=sieves --set Grains/Sieves/d10=2e-3": ("d10",),
             "Packing/solid fraction=1.2": ("solid fraction",),
+            "Grains/shape=clumps": ("0.55", "not tightened", "0.35"),
+            "Grains/Clumps/parts=0 0 0 1 1 1 1": ("Grains/Clumps/parts", "7 numbers"),
         }.items():
             with self.subTest(setting):
                 out = self.tmp / "refused"

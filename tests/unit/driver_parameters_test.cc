@@ -1,4 +1,5 @@
 #include "dem/core/error.h"
+#include "drivers/common/clump_parameters.h"
 #include "drivers/common/nearest_name.h"
 #include "drivers/common/parameter_file.h"
 #include "tests/temporary_folder.h"
@@ -256,6 +257,43 @@ TEST_CASE("the resolved file reads back as the very same values")
     CHECK(q.values == p.values);
     CHECK(q.file.resolved_text() == p.file.resolved_text());
   }
+}
+
+TEST_CASE("the parts of a clump are read, written back and refused by what is wrong with them")
+{
+  using bergamo::dem::ClumpShape;
+  ClumpShape clump;
+  clump.parts.push_back({{bergamo::Vec3::Ones(), 1., 1.}}); // a default has to be allowed
+  ParameterFile file("Test");
+  file.add_bound("Grains", "parts", "of a clump", bind_clump(clump));
+  file.set("Grains/parts=0 0 0  1 0.8 0.1  0.7 1.2 ;1e-3 -2 3  0.5 0.5 0.5  1 1  0.5 0.5 -0.5 0.5");
+  REQUIRE(clump.parts.size() == 2);
+  CHECK(clump.parts[0].shape.half_axes == bergamo::Vec3(1, 0.8, 0.1));
+  CHECK(clump.parts[0].shape.eps1 == 0.7);
+  CHECK(clump.parts[0].shape.eps2 == 1.2);
+  CHECK(clump.parts[0].orientation.coeffs() == bergamo::Quaternion::Identity().coeffs());
+  CHECK(clump.parts[1].position == bergamo::Vec3(1e-3, -2, 3));
+  CHECK(clump.parts[1].orientation.coeffs() == bergamo::Quaternion(0.5, 0.5, -0.5, 0.5).coeffs());
+
+  const std::string text = file.resolved_text();
+  clump.parts.clear();
+  file.read_text(text, "resolved");
+  REQUIRE(clump.parts.size() == 2);
+  CHECK(file.resolved_text() == text);
+
+  const auto refused = [&](const std::string &parts, const std::string &why)
+  {
+    CAPTURE(parts);
+    CHECK_THROWS_WITH(file.set("Grains/parts=" + parts), Contains("Grains/parts") && Contains(why));
+  };
+  refused("0 0 0 1 1 1 1", "7 numbers");
+  refused("", "0 numbers");
+  refused("0 0 0 1 1 1 1 1 ;", "0 numbers");
+  refused("0 0 0 1 1 one 1 1", "'one'");
+  refused("0 0 0 1 1 -1 1 1", "half-axis");
+  refused("0 0 0 1 1 1 2.5 1", "exponent");
+  refused("0 0 0 1 1 1 1 1 0 0 0 0", "quaternion");
+  CHECK(clump.parts.size() == 2);
 }
 
 TEST_CASE("a parameter file that is not there is named")

@@ -121,9 +121,10 @@ TEST_CASE("spheres move the same by their own path and as superquadrics of expon
   CHECK(moved > 5e-5); // the wall was followed
   CHECK(apart < 1e-5 * moved);
   CHECK(turned < 1e-5 * rotated);
-  // Not of the one or other loose grain that is just being hit: its stiff contact magnifies what is apart.
-  CHECK(median < 1e-5 * force);
-  CHECK(of_nearly_all < 1e-4 * force);
+  // Not of the one or other loose grain that is just being hit: its stiff contact magnifies what is apart, and the
+  // largest force of the moment may be small. A tenth of what a wrong term would make.
+  CHECK(median < 1e-4 * force);
+  CHECK(of_nearly_all < 1e-3 * force);
 
   // Sums over all grains and steps, on which single loose grains have little weight.
   const GrainEnergy a = spheres.energy(), b = superquadrics.energy();
