@@ -1,9 +1,12 @@
 #include "dem/core/error.h"
 #include "dem/core/pvd.h"
 #include "dem/io/vtu.h"
+#include "dem/shape/clump_mass.h"
+#include "dem/shape/rigid_clump.h"
 
 #include "tests/temporary_folder.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>
@@ -171,6 +174,59 @@ TEST_CASE("the volume drawn stays near the true one over all shapes")
   {
     INFO("eps " << particles.parts.shape[grain].eps1 << " " << particles.parts.shape[grain].eps2);
     CHECK(enclosed[grain] == Approx(volume(particles.parts.shape[grain])).epsilon(0.03));
+  }
+}
+
+TEST_CASE("clumps are written part by part, with what belongs to their particle")
+{
+  const TemporaryFolder folder;
+  const Superquadric ball{Vec3::Constant(1e-3), 1., 1.}, stone{Vec3(0.6e-3, 0.4e-3, 0.9e-3), 0.7, 1.2};
+  const Clump clump(ClumpShape{{{ball, Vec3(-2e-3, 0., 0.)}, {stone, Vec3(1e-3, 1e-3, 0.)}}});
+  const Quaternion turn(Eigen::AngleAxisd(0.7, Vec3(1., 2., -1.).normalized()));
+  Particles particles;
+  particles.add(stone, 2650., Vec3(5e-3, 0., 0.), turn);
+  particles.add(clump, 2650., Vec3(0., 4e-3, 1e-3), turn);
+  particles.add(ball, 2650., Vec3(0., 0., 9e-3), Quaternion::Identity());
+  particles.id = {7, 30, 5};
+  particles.velocity[1] = Vec3(1., 2., 3.);
+  const std::vector<double> pressure{1., 2., 3.};
+  const std::vector<GrainField> fields{{"pressure", pressure}};
+  write_grains_vtu(particles, fields, folder / "grains.vtu", 4);
+
+  const Vtu vtu(content_of(folder / "grains.vtu"));
+  const std::size_t n_points = 7 * 16 + 2, n_faces = 8 * 16; // of a part
+  REQUIRE(vtu.n_points == 4 * n_points);
+  REQUIRE(vtu.n_cells == 4 * n_faces);
+  const auto points = vtu.array<float>("Points");
+  const auto corners = vtu.array<std::int32_t>("connectivity");
+  const auto id = vtu.array<std::int64_t>("id");
+  const auto velocity = vtu.array<float>("velocity"), radius = vtu.array<float>("bounding_radius"),
+             field = vtu.array<float>("pressure");
+  REQUIRE(points.size() == 3 * vtu.n_points);
+  REQUIRE(id.size() == vtu.n_cells);
+  REQUIRE(field.size() == vtu.n_cells);
+  CHECK(*std::max_element(corners.begin(), corners.end()) == static_cast<std::int32_t>(vtu.n_points) - 1);
+  for (std::size_t cell = 0; cell < vtu.n_cells; ++cell)
+  {
+    const std::size_t particle = std::vector<std::size_t>{0, 1, 1, 2}[cell / n_faces];
+    CHECK(id[cell] == particles.id[particle]);
+    CHECK(velocity[3 * cell + 1] == (particle == 1 ? 2.f : 0.f));
+    CHECK(radius[cell] == static_cast<float>(particles.bounding_radius[particle]));
+    CHECK(field[cell] == static_cast<float>(pressure[particle]));
+  }
+  // Every point lies on its part, in the frame in which the clump was given.
+  const MassProperties mass = mass_properties(ClumpShape{{{ball, Vec3(-2e-3, 0., 0.)}, {stone, Vec3(1e-3, 1e-3, 0.)}}});
+  for (std::size_t i = 0; i < vtu.n_points; ++i)
+  {
+    const std::size_t part = i / n_points;
+    const Vec3 point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+    Vec3 body = turn.conjugate() * (point - particles.position[part == 0 ? 0 : 1]);
+    if (part == 1 || part == 2)
+      body = mass.centre + mass.orientation * body - (part == 1 ? Vec3(-2e-3, 0., 0.) : Vec3(1e-3, 1e-3, 0.));
+    if (part == 3)
+      body = point - particles.position[2];
+    const Superquadric &shape = part == 0 || part == 2 ? stone : ball;
+    CHECK(std::pow(inside_outside(shape, body), shape.eps2 / 2.) == Approx(1.).epsilon(1e-5));
   }
 }
 
