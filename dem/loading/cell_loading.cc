@@ -57,9 +57,9 @@ void CellLoading::prepare(Simulation &simulation)
 {
   // Where the pressure rises, contacts grow stiffer fast.
   const std::int64_t step_interval = s.is_strained() ? 5000 : 500;
-  if (simulation.n_steps % step_interval == 0)
-    follow_stable_step(simulation);
   simulation.compute_forces();
+  if (simulation.n_steps % step_interval == 0)
+    follow_stable_step(simulation); // by the stress of this step: a restart knows no other
   PeriodicCell &cell = simulation.particles.cell;
   const Vec3 stress = simulation.cell_stress();
   double axial_rate = 0.;

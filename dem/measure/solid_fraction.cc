@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 namespace bergamo::dem
 {
@@ -21,11 +23,12 @@ double volume_of_sphere(const double radius)
 
 double solid_volume(const Particles &particles)
 {
-  double sum = 0.;
+  std::vector<double> volumes; // summed by size, so that the sum does not depend on the grains' order
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (!particles.is_fixed(i))
-      sum += particles.volume[i];
-  return sum;
+      volumes.push_back(particles.volume[i]);
+  std::sort(volumes.begin(), volumes.end());
+  return std::accumulate(volumes.begin(), volumes.end(), 0.);
 }
 
 double solid_fraction(const Particles &particles, const double volume)

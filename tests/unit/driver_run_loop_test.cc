@@ -130,7 +130,7 @@ TEST_CASE("a step is snapshot, forces, readings in their order, motion; the last
 {
   std::string order;
   double clock = 0;
-  RunLoop loop({.interval = 2, .write = [&] { order += "snapshot "; }}, [&] { return clock; });
+  RunLoop loop({.interval = 2, .write = [&] { order += "snapshot "; }, .steps_between_looks = 1}, [&] { return clock; });
   std::int64_t n = 0;
   const Stepping stepping{.time = [&] { return n * 0.5; },
                           .is_last = [&] { return n == 2; },
@@ -153,7 +153,7 @@ TEST_CASE("the interval between snapshots runs on from stage to stage")
 {
   double clock = 0;
   int n_snapshots = 0;
-  RunLoop loop({.interval = 10, .write = [&] { ++n_snapshots; }}, [&] { return clock; });
+  RunLoop loop({.interval = 10, .write = [&] { ++n_snapshots; }, .steps_between_looks = 1}, [&] { return clock; });
   for (int stage = 0; stage < 6; ++stage) // each shorter than the interval
   {
     int n = 0;

@@ -27,7 +27,8 @@ bool RunLoop::run(const Stepping &stepping, const std::vector<Action> &actions)
   for (;; ++step_, ++steps_here_)
   {
     const bool is_stopped = interrupted() && !stepping.is_last();
-    if (snapshot_is_due_({}) || is_stopped)
+    const bool is_looked_at = steps_here_ > 0 && steps_here_ % plan_.steps_between_looks == 0;
+    if ((is_looked_at && snapshot_is_due_({})) || is_stopped)
       plan_.write();
     if (is_stopped)
       return false;

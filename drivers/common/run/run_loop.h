@@ -32,6 +32,7 @@ struct SnapshotPlan
 {
   double interval = 30; ///< of the wall clock, the most that a kill can cost [s]
   std::function<void()> write;
+  std::int64_t steps_between_looks = 50; ///< at the clock
 };
 
 /// The loop of every run, over one stage after the other. A step is: snapshot, when one is due or the user asks the run
