@@ -45,6 +45,7 @@ void CellLoading::begin(Simulation &simulation)
   now.edges = simulation.particles.cell.edges;
   now.start_time = simulation.time;
   control.start_from(simulation.cell_stress());
+  now.applied = control.applied;
 }
 
 void CellLoading::resume(const State &state)
