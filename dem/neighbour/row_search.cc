@@ -30,12 +30,12 @@ RowSearch::RowSearch(const SphereRows &rows, const double verlet_distance, const
 {
 }
 
-double RowSearch::reach_to(const SizeClass &other) const
+double RowSearch::reach_to(const SphereClass &other) const
 {
   return 0.5 * (size->range + other.range) * (1. + 1e-12) + rounding;
 }
 
-void RowSearch::go_to_layer(const SizeClass &new_size, const std::int32_t begin, const std::int32_t end)
+void RowSearch::go_to_layer(const SphereClass &new_size, const std::int32_t begin, const std::int32_t end)
 {
   size = &new_size;
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -46,16 +46,18 @@ void RowSearch::go_to_layer(const SizeClass &new_size, const std::int32_t begin,
     high = std::max(high, z);
   }
   near_layers.clear();
-  for (const SizeClass *other = size; other >= rows.classes.data(); --other) // its own first, then the larger ones
+  for (auto k = size - rows.classes.data(); k >= 0; --k) // its own first, then the larger ones
   {
+    const SphereClass *const other = &rows.classes[k];
     const double reach = reach_to(*other);
     const RowNumbers numbers(*other, 2, {low - reach, high + reach});
-    for (int k = 0; k < numbers.n_stretches; ++k)
+    for (int stretch = 0; stretch < numbers.n_stretches; ++stretch)
     {
+      const auto [first, last] = numbers.stretch[stretch];
       const auto end_layers = rows.layers.begin() + other->end_layers;
       for (auto layer = std::partition_point(rows.layers.begin() + other->begin_layers, end_layers,
-                                             [&](const SphereLayer &l) { return l.number < numbers.stretch[k].low; });
-           layer != end_layers && layer->number <= numbers.stretch[k].high; ++layer)
+                                             [&, first = first](const SphereLayer &l) { return l.number < first; });
+           layer != end_layers && layer->number <= last; ++layer)
         near_layers.push_back({other, layer->begin_rows, layer->end_rows, layer->begin_rows});
     }
   }
@@ -103,7 +105,7 @@ void RowSearch::go_to_row(const std::int32_t begin, const std::int32_t end)
   larger_rows.clear();
   for (auto layer = near_layers.begin(); layer != near_layers.end();)
   {
-    const SizeClass *const other = layer->size;
+    const SphereClass *const other = layer->size;
     const double reach = reach_to(*other);
     const RowNumbers numbers(*other, 1, {low[1] - reach, high[1] + reach});
     for (; layer != near_layers.end() && layer->size == other; ++layer)

@@ -17,12 +17,12 @@ public:
 
   /// Calls visit(i) with the index i of each sphere of [begin, end) in the order of rows, with its partners in `found`:
   /// those of its own class and of greater index, and those in the classes of larger spheres. So every pair is found
-  /// once, and nothing is looked for among the many small spheres around a large one.
+  /// once, and the many small spheres around a large one need not be gone through for it.
   template <class Visit>
   void for_each_sphere(const std::int32_t begin, const std::int32_t end, Visit &&visit)
   {
     const auto last_of = [&](const SphereLayer &layer) { return rows.rows[layer.end_rows - 1].end; };
-    for (const SizeClass &size : rows.classes)
+    for (const SphereClass &size : rows.classes)
     {
       const auto end_layers = rows.layers.begin() + size.end_layers;
       for (auto layer = std::partition_point(rows.layers.begin() + size.begin_layers, end_layers,
@@ -58,7 +58,7 @@ private:
   /// A layer in reach of that gone to.
   struct NearLayer
   {
-    const SizeClass *size;
+    const SphereClass *size;
     std::int32_t begin_rows, end_rows;
     std::int32_t next_row; ///< where the last search for one ended
   };
@@ -86,14 +86,19 @@ private:
     std::int32_t least; ///< index of a partner
   };
 
-  double reach_to(const SizeClass &other) const;
-  void go_to_layer(const SizeClass &size, std::int32_t begin, std::int32_t end);
-  /// Least and greatest places in the cell of spheres.
+  /// From a sphere of the class gone to [m].
+  double reach_to(const SphereClass &other) const;
+
+  /// Least and greatest coordinates of the spheres [begin, end), in the cell [m].
   std::pair<Vec3, Vec3> bounds(std::int32_t begin, std::int32_t end) const;
+
+  // To the spheres [begin, end) of a layer, of a row in it, of a piece of that.
+  void go_to_layer(const SphereClass &size, std::int32_t begin, std::int32_t end);
   void go_to_row(std::int32_t begin, std::int32_t end);
   template <class Visit>
   void for_each_near_row(NearLayer &layer, const RowNumbers &numbers, Visit &&visit);
   void gather_larger(std::int32_t begin, std::int32_t end);
+
   void find_partners(std::int32_t of);
   void look_around(const NearRow &row, std::int32_t of);
 
@@ -104,8 +109,8 @@ private:
   const SphereRows &rows;
   const double verlet_distance;
   const PeriodicCell &cell;
-  const double rounding; ///< of places in the cell and of numbers of rows, with room to spare [m]
-  const SizeClass *size = nullptr;
+  const double rounding;             ///< of places in the cell and of numbers of rows, with room to spare [m]
+  const SphereClass *size = nullptr; ///< of the layer gone to
   std::vector<NearLayer> near_layers;
   std::vector<NearRow> near_rows;
   std::vector<LargerRow> larger_rows;

@@ -25,7 +25,7 @@ using Bins = std::array<Bin, n_bins>;
 
 // Work for a sphere, over that of a test for nearness, as `benchmarks/neighbours` has it.
 constexpr double tests_among_equals = 40.; // in a dense packing, with what rows are wider than spheres reach
-constexpr double tests_for_a_class = 200.;  // that a class of larger spheres costs, were it empty
+constexpr double tests_for_a_class = 200.; // that a class of larger spheres costs, were it empty
 constexpr double tests_of_larger = 60.;    // that its spheres cost if they are equal
 
 /// First bin of each class, from the bins that are not empty. Least work by dynamic programming: a cut before a bin

@@ -24,7 +24,7 @@ struct Entry
   }
 };
 
-double row_number(const SizeClass &size, const int d, const double place)
+double row_number(const SphereClass &size, const int d, const double place)
 {
   return std::min(std::floor(place / size.width[d]), size.n_rows[d] - 1.);
 }
@@ -44,7 +44,7 @@ SphereRows::SphereRows(const BoundingSpheres &given, const double verlet_distanc
   const SizeClasses sizes = divide_by_size(given.radii, verlet_distance);
   for (const double range : sizes.range)
   {
-    SizeClass size;
+    SphereClass size;
     size.range = range;
     size.width.setConstant(std::max(range, std::numeric_limits<double>::min()));
     size.n_rows = (cell.edges.array() / size.width.array()).floor().max(1.);
@@ -67,7 +67,7 @@ SphereRows::SphereRows(const BoundingSpheres &given, const double verlet_distanc
   for (std::size_t s = 0; s < n; ++s)
   {
     const Entry &e = entries[s];
-    SizeClass &size = classes[e.size_class];
+    SphereClass &size = classes[e.size_class];
     const bool is_new_class = s == 0 || e.size_class != entries[s - 1].size_class;
     const bool is_new_layer = is_new_class || e.z != layers.back().number;
     const auto n_rows = static_cast<std::int32_t>(rows.size());
@@ -101,7 +101,7 @@ Vec3 place_in(const PeriodicCell &cell, const Vec3 &x)
   return cell.is_periodic() ? Vec3(x - (x.array() / cell.edges.array()).floor().matrix().cwiseProduct(cell.edges)) : x;
 }
 
-RowNumbers::RowNumbers(const SizeClass &size, const int direction, const Interval &interval)
+RowNumbers::RowNumbers(const SphereClass &size, const int direction, const Interval &interval)
 {
   const double n = size.n_rows[direction];
   const double first = std::floor(interval.low / size.width[direction]);

@@ -12,7 +12,7 @@ namespace bergamo::dem
 {
 
 /// Spheres of like size (size_classes.h).
-struct SizeClass
+struct SphereClass
 {
   double range = 0.;                             ///< of its largest sphere [m]
   Vec3 width = Vec3::Zero();                     ///< of its rows in y and z [m], at least the range; x is not used
@@ -64,7 +64,7 @@ struct SphereRows
   /// @param verlet_distance [m], >= 0; @param cell if periodic, spheres outside are taken at their image in it
   SphereRows(const BoundingSpheres &spheres, double verlet_distance, const PeriodicCell &cell);
 
-  std::vector<SizeClass> classes;
+  std::vector<SphereClass> classes;
   std::vector<SphereLayer> layers;
   std::vector<SphereRow> rows;
   SphereArrays spheres; ///< in the order of rows
@@ -83,7 +83,7 @@ struct Interval
 struct RowNumbers
 {
   /// @param direction 1: rows, by y; 2: layers, by z
-  RowNumbers(const SizeClass &size, int direction, const Interval &interval);
+  RowNumbers(const SphereClass &size, int direction, const Interval &interval);
 
   int n_stretches = 1;
   Interval stretch[2]; ///< first and last number

@@ -1,3 +1,4 @@
+#include "dem/neighbour/size_classes.h"
 #include "dem/neighbour/spatial_order.h"
 #include "dem/neighbour/sphere_rows.h"
 #include "dem/neighbour/verlet_list.h"
@@ -130,9 +131,13 @@ TEST_CASE("the Verlet list of degenerate sets")
   check_list(random_cloud(100, {0.1, 0.1, 0.1}, 0.3, 0.5, 2), 0.1);                         // all in one cell
   check_list({std::vector<Vec3>(20, Vec3(1., 2., 3.)), std::vector<double>(20, 0.1)}, 0.1); // all in one place
   check_list(random_cloud(300, {1000., 1., 1.}, 0.2, 0.5, 3), 0.1);                         // a long thread
-  check_list(random_cloud(300, {1e9, 1., 1e-3}, 0.2, 0.5, 4), 0.1); // far more cells than grains
-  check_list(random_cloud(300, {1e7, 1e7, 1e7}, 0.2, 0.5, 5), 0.1); // a gas
-  check_list(random_cloud(300, {10., 10., 0.}, 0.2, 0.5, 6), 0.1);  // a layer
+  check_list(random_cloud(300, {1e9, 1., 1e-3}, 0.2, 0.5, 4), 0.1);                       // far more cells than grains
+  check_list(random_cloud(300, {1e7, 1e7, 1e7}, 0.2, 0.5, 5), 0.1);                       // a gas
+  check_list(random_cloud(300, {10., 10., 0.}, 0.2, 0.5, 6), 0.1);                        // a layer
+  check_list({std::vector<Vec3>(20, Vec3(1., 2., 3.)), std::vector<double>(20, 0.)}, 0.); // points touch nothing
+  Cloud points = random_cloud(100, {3., 3., 3.}, 0., 0., 10);
+  points.radii[50] = 1.;
+  check_list(points, 0.); // but a sphere touches them
   Cloud two_heaps = random_cloud(100, {3., 3., 3.}, 0.2, 0.5, 7);
   const Cloud far = random_cloud(100, {3., 3., 3.}, 0.2, 0.5, 8);
   for (std::size_t i = 0; i < far.positions.size(); ++i)
@@ -227,6 +232,47 @@ TEST_CASE("classes of size follow their own largest sphere")
     is_same = is_same && row.end - row.begin == alone.rows[k].end - alone.rows[k].begin;
   }
   CHECK(is_same);
+}
+
+TEST_CASE("in no class of size are spheres much smaller than rows are wide")
+{
+  // What a sphere meets in rows wide enough for the largest of its class, over what it meets among equals: the cube of
+  // the largest range over the mean cube. A single large sphere among many has a class by itself.
+  const auto crowd = [](const std::vector<double> &radii)
+  {
+    const SizeClasses classes = divide_by_size(radii, 0.);
+    std::vector<double> n(classes.range.size(), 0.), cubes(n);
+    bool is_in_range = true;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+    {
+      const std::int32_t k = classes.size_class[i];
+      is_in_range = is_in_range && 2. * radii[i] <= classes.range[k];
+      ++n[k];
+      cubes[k] += std::pow(2. * radii[i] / classes.range[k], 3);
+    }
+    CHECK(is_in_range);
+    double sum = 0.;
+    for (std::size_t k = 0; k < n.size(); ++k)
+      sum += n[k] * std::min(n[k] / cubes[k], n[k]);
+    return sum / radii.size();
+  };
+  for (const double ratio : {1., 1.2, 1.5, 2., 3., 5., 10., 30., 100., 1e6, 1e12})
+  {
+    std::vector<double> radii(5000, 1.);
+    radii[2500] = ratio;
+    CHECK(crowd(radii) < 8.);
+  }
+  std::mt19937_64 generator(4);
+  for (const Sizes &sizes : sizes_of_all_kinds)
+  {
+    INFO(sizes.name);
+    std::vector<double> radii;
+    for (int i = 0; i < 5000; ++i)
+      radii.push_back(sizes.draw(generator));
+    radii[0] = 1.;
+    CHECK(crowd(radii) < 16.);
+  }
+  CHECK(divide_by_size(std::vector<double>{1., 1.1, 1.05, 1.01}, 0.1).range.size() == 1);
 }
 
 TEST_CASE("grains that have left change nothing for the others")
