@@ -52,7 +52,7 @@ dem::Simulation dense_cell(const int n_parts, const int n_grains)
   p.grain().young_modulus = p.wall().young_modulus = 1e8;
   p.between_grains().friction = 0.1;
   p.set_damping(0.9);
-  p.time_step = 2e-6;
+  p.time_step = 1e-6;
   p.contact.overlap_tolerance = 1e-3;
   dem::Simulation s(p, std::move(packed.particles), {});
   dem::CellControl control{dem::CellControlParameters()};

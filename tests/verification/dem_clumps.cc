@@ -379,6 +379,34 @@ TEST_CASE("a clump hooks over another one and none of its contacts is lost")
   CHECK(free.particles.position[free.index_of(1)][0] > left + 0.1 * radius);
 }
 
+TEST_CASE("a body that turns in its place meets what lies in the way of its parts")
+{
+  // Its centre stays, so only the turn tells that a part has come near: the ball lies a right angle ahead, far out of
+  // range at the start.
+  const Threads one_thread(1);
+  const double a = 5. * radius;
+  Particles particles;
+  particles.add(dumbbell(a), density, Vec3::Zero(), Quaternion::Identity());
+  particles.add(sphere(radius), density, Vec3(0., a, 0.), Quaternion::Identity());
+  const double spin = 100.;
+  particles.angular_momentum[0] = Vec3(0., 0., spin * particles.inertia[0][2]);
+  SimulationParameters p = elastic(1e7);
+  p.time_step = 2e-6;
+  Simulation s(p, particles, {});
+  CHECK(s.contacts.n_candidates() == 0);
+  const double until = (0.5 * pi - 2. * std::asin(radius / a)) / spin; // the arc to where both spheres touch
+  while (s.time < until - 10. * p.time_step)
+    s.step();
+  CHECK(s.contacts.n_touching() == 0);
+  while (s.time < until + 10. * p.time_step)
+    s.step();
+  CHECK(s.contacts.n_touching() == 1);
+  for (int n = 0; n < 1000; ++n)
+    s.step();
+  CHECK(s.contacts.n_touching() == 0);
+  CHECK(s.particles.velocity[s.index_of(1)].norm() > 0.1 * spin * a);
+}
+
 TEST_CASE("parts of one body never touch each other")
 {
   const Threads one_thread(1);
