@@ -1,9 +1,9 @@
 #pragma once
 
 #include "dem/account/accounts.h"
+#include "dem/account/divergence.h"
 #include "dem/account/energy.h"
 #include "dem/core/phase_times.h"
-#include "dem/account/divergence.h"
 #include "dem/force/contacts.h"
 #include "dem/neighbour/neighbour_watch.h"
 #include "dem/simulation_parameters.h"

@@ -19,7 +19,7 @@ struct GrainEnergy
   double cell_work = 0.;     ///< done by the deformation of a periodic cell
   double exchanged = 0.;     ///< brought in by grains and walls that were added, less what removed ones took away
 
-  double step_change = 0.;   ///< put in by changes of the time step, see step_change_work()
+  double step_change = 0.; ///< put in by changes of the time step, see step_change_work()
 
   double stored() const { return kinetic + normal + tangential; }
   double balance() const

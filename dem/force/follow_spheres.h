@@ -25,7 +25,8 @@ struct SphereGeometry
     one_over_half_distance =
         math::select(is_line, math::inverse_sqrt(math::select(is_line, square, Real(1.))), Real(0.));
     half_distance = square * one_over_half_distance;
-    normal = math::select<Real>(is_line, Vector3<Real>(half_line * one_over_half_distance), normal_without_line<Real>());
+    normal =
+        math::select<Real>(is_line, Vector3<Real>(half_line * one_over_half_distance), normal_without_line<Real>());
     overlap = radius_sum - half_distance - half_distance;
     point = normal * (Real(0.5) * radius_difference);
   }

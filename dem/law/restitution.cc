@@ -163,8 +163,8 @@ double damping_ratio_of(const double restitution)
   while (excess(high) > 0.)
     high += 0.5;
   std::uintmax_t iterations = 100;
-  const auto [from, to] = boost::math::tools::toms748_solve(
-      excess, std::log(0.1 * (1. - restitution)), high, boost::math::tools::eps_tolerance<double>(45), iterations);
+  const auto [from, to] = boost::math::tools::toms748_solve(excess, std::log(0.1 * (1. - restitution)), high,
+                                                            boost::math::tools::eps_tolerance<double>(45), iterations);
   return std::exp(0.5 * (from + to));
 }
 

@@ -27,6 +27,16 @@ public:
     double start_time = 0.;      ///< [s]
     double leg = 0.;             ///< under way
     double n_checks_passed = 0.; ///< in a row
+
+    template <class Self, class Visit>
+    static void visit_state(Self &self, Visit &visit)
+    {
+      visit("edges", self.edges);
+      visit("applied", self.applied);
+      visit("start_time", self.start_time);
+      visit("leg", self.leg);
+      visit("n_checks_passed", self.n_checks_passed);
+    }
   };
 
   /// @param stage valid; @param grain of the simulation; @param density of the grains [kg/m^3]

@@ -48,8 +48,8 @@ public:
   explicit CellControl(const CellControlParameters &parameters);
 
   /// Sets cell.acceleration for the step to come.
-  /// @param mean_stress principal stresses of the grains in the cell, tension positive [Pa]; @param time_step over which
-  /// the acceleration will act, the kick [s]
+  /// @param mean_stress principal stresses of the grains in the cell, tension positive [Pa]; @param time_step over
+  /// which the acceleration will act, the kick [s]
   void act(PeriodicCell &cell, const std::array<AxisControl, 3> &controls, const Vec3 &mean_stress, double time_step);
 
   /// Has the applied stress start from the present one: to be called when an axis comes under another control.

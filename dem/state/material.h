@@ -20,8 +20,9 @@ struct Material
 /// How two materials rub and lose energy where they touch.
 struct SurfacePair
 {
-  double friction = 0.24;      ///< Coulomb's coefficient
-  double damping_ratio = 0.9;  ///< dashpot, share of critical damping; see damping_ratio_of() for a restitution coefficient
+  double friction = 0.24; ///< Coulomb's coefficient
+  double damping_ratio =
+      0.9; ///< dashpot, share of critical damping; see damping_ratio_of() for a restitution coefficient
   double relaxation_time = 0.; ///< A of the viscoelastic law, beside the dashpot [s]; see relaxation_time()
 
   /// Throws ConfigError for a value out of its range.

@@ -26,7 +26,8 @@ std::vector<std::string> distribution_columns()
 std::vector<double> distribution_row(const dem::Simulation &s, const std::int64_t stage)
 {
   std::vector<double> row{s.time, static_cast<double>(stage)};
-  for (const auto &[name, value] : dem::contact_distributions(s.contacts.touching(s.particles), s.parameters().between_grains().friction))
+  for (const auto &[name, value] :
+       dem::contact_distributions(s.contacts.touching(s.particles), s.parameters().between_grains().friction))
     row.push_back(value);
   return row;
 }
@@ -68,8 +69,8 @@ bool SampleRun::run()
     history.append(table.row());
     if (now.overlap > 0.2)
       throw RunError("the run diverged: grains overlap by " + std::to_string(now.overlap) +
-                          " of their radius at time " + std::to_string(now.time) +
-                          " s; choose a smaller time step or a smaller inertial number");
+                     " of their radius at time " + std::to_string(now.time) +
+                     " s; choose a smaller time step or a smaller inertial number");
     next_row = simulation->n_steps + steps_to_next_row();
   };
   const auto add_distribution = [&]
@@ -224,11 +225,9 @@ void SampleRun::visit(StateVisitor &visit)
   visit("next_row", next_row);
   visit("next_distribution", next_distribution);
   visit("first_balance", first_balance);
-  dem::SimulationParameters p = parameters.simulation;
-  p.contact.overlap_tolerance = program.at(stage).overlap_tolerance;
-  auto read = visit_grains(visit, simulation.get(), p);
+  auto read = visit_grains(visit, simulation.get(), parameters.simulation);
   dem::CellLoading::State state = loading ? loading->state() : dem::CellLoading::State();
-  visit_loading(visit, state);
+  visit("loading", state);
   if (!visit.is_reading())
     return;
   simulation = std::move(read);

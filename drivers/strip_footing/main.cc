@@ -97,7 +97,7 @@ void FootingRun::sample(History &history)
 {
   if (!model.body().is_finite())
     throw RunError("the run diverged: the ground is not finite at time " + std::to_string(time()) +
-                        " s; choose a smaller Output/step share");
+                   " s; choose a smaller Output/step share");
   energy = model.body().energy();
   largest_residual = std::max(largest_residual, std::abs(energy.residual()));
   history.append(table.row());

@@ -31,7 +31,7 @@ Stage stage_of(PackingStage &packing, double aim);
 /// What the loading starts from.
 struct LoadingStart
 {
-  dem::Box box;                           ///< of the grains or, without any, the cube
+  dem::Box box;                      ///< of the grains or, without any, the cube
   std::vector<Vec3> reference_by_id; ///< the grains' places
   double solid_fraction = 0.;
   double coordination_number = 0.; ///< contacts a grain

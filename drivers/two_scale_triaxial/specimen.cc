@@ -150,7 +150,7 @@ SpecimenSample Specimen::measure(const double time) const
   sample.largest_overlap = dem::largest_relative_overlap(grains->contacts, grains->particles);
   if (sample.largest_overlap > 0.2)
     throw RunError("the run diverged: grains overlap by " + std::to_string(sample.largest_overlap) +
-                        " of their radius" + at() + " or smaller strains");
+                   " of their radius" + at() + " or smaller strains");
   return sample;
 }
 

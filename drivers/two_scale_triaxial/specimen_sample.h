@@ -13,8 +13,8 @@ namespace bergamo::driver
 /// What is read of a step, and the columns of history.csv.
 struct SpecimenSample
 {
-  double time = 0.;                                                 ///< of the loading [s]
-  int stage = 1;                                                    ///< 1: isotropic, 2: shear
+  double time = 0.;                                  ///< of the loading [s]
+  int stage = 1;                                     ///< 1: isotropic, 2: shear
   Vec3 strain = Vec3::Zero(), stress = Vec3::Zero(); ///< tension positive [-], [Pa]
   coupling::ModelEnergy energy;
   double residual = 0.;                                  ///< of the energy's balance since the first sample [J]

@@ -263,7 +263,8 @@ TEST_CASE("relative curvature does not depend on the frame or on the order of th
     const RelativeCurvature<double> other = curvature_at(-Vec3::UnitZ(), h2, wide, h1, wide);
     CHECK(relative(other.a, one.a) < 1e-12);
     CHECK(relative(other.b, one.b) < 1e-12);
-    CHECK(relative(curvature_at(Vec3::UnitZ(), h2, wide, h1, wide).a, one.a) < 1e-14); // fused operations do not commute
+    CHECK(relative(curvature_at(Vec3::UnitZ(), h2, wide, h1, wide).a, one.a) <
+          1e-14); // fused operations do not commute
     if (one.b > 1.001 * one.a)
       CHECK(std::abs(std::abs(other.major_axis.dot(one.major_axis)) - 1.) < 1e-9);
 

@@ -130,7 +130,8 @@ TEST_CASE("a step is snapshot, forces, readings in their order, motion; the last
 {
   std::string order;
   double clock = 0;
-  RunLoop loop({.interval = 2, .write = [&] { order += "snapshot "; }, .steps_between_looks = 1}, [&] { return clock; });
+  RunLoop loop({.interval = 2, .write = [&] { order += "snapshot "; }, .steps_between_looks = 1},
+               [&] { return clock; });
   std::int64_t n = 0;
   const Stepping stepping{.time = [&] { return n * 0.5; },
                           .is_last = [&] { return n == 2; },

@@ -192,8 +192,8 @@ TEST_CASE("the force between two pressed spheres is Hertz's")
 TEST_CASE("the tangential stiffness between two pressed spheres is Mindlin's")
 {
   const Threads one_thread(1);
-  // Force over displacement in the step that led here: 4 G a/(2 - nu), a = sqrt(R* d), in every direction, for sliding and
-  // for the rotation of either sphere (displacement omega x arm).
+  // Force over displacement in the step that led here: 4 G a/(2 - nu), a = sqrt(R* d), in every direction, for sliding
+  // and for the rotation of either sphere (displacement omega x arm).
   for (const double nu : {0., 0.25, 0.4})
     for (int mode = 0; mode < 4; ++mode)
     {

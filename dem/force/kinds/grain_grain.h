@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/force/contact_set.h"
+#include "dem/force/kinds/between_parts.h"
 
 #include <span>
 #include <vector>
@@ -10,23 +11,14 @@ namespace bergamo::dem
 
 /// Contacts between parts of particles of any shape; see ContactSet for what a kind has to say. Followed along the
 /// rigid motion (dem/force/follow.h), searched in packs by Newton's method (dem/force/search_contacts.h).
-struct GrainGrain
+struct GrainGrain : BetweenParts
 {
   using State = ContactState<double>;
   using Store = ContactStore<ContactState>;
   using Hint = Eigen::Vector3f; ///< direction that separates a pair apart; zero for a pair never searched
   static Hint no_hint() { return Hint::Zero(); }
 
-  static constexpr bool second_is_wall = false;
-  static constexpr bool is_interleaved = true;
   static constexpr std::size_t search_group = pack_width;
-  static constexpr std::int32_t near_reach = 64;
-
-  static double travelled(const ContactScene &scene, std::int32_t first_part, std::int32_t second_part)
-  {
-    const Particles &p = scene.particles;
-    return p.parts.motion[first_part] + p.parts.motion[second_part] + p.cell.motion;
-  }
 
   static math::Mask<Pack> follow_block(Store &store, LoadSums &loads, std::size_t block, const ContactScene &scene,
                                        Losses<Pack> &losses);

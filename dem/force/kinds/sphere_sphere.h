@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/force/contact_set.h"
+#include "dem/force/kinds/between_parts.h"
 
 #include <span>
 #include <vector>
@@ -10,7 +11,7 @@ namespace bergamo::dem
 
 /// Contacts between spheres about the centres of their particles, whose geometry is exact at every step; see
 /// ContactSet for what a kind has to say.
-struct SphereSphere
+struct SphereSphere : BetweenParts
 {
   using State = SphereContactState<double>;
   using Store = ContactStore<SphereContactState>;
@@ -19,16 +20,7 @@ struct SphereSphere
   };
   static Hint no_hint() { return {}; }
 
-  static constexpr bool second_is_wall = false;
-  static constexpr bool is_interleaved = true;
   static constexpr std::size_t search_group = 16;
-  static constexpr std::int32_t near_reach = 64;
-
-  static double travelled(const ContactScene &scene, std::int32_t first_part, std::int32_t second_part)
-  {
-    const Particles &p = scene.particles;
-    return p.parts.motion[first_part] + p.parts.motion[second_part] + p.cell.motion;
-  }
 
   static math::Mask<Pack> follow_block(Store &store, LoadSums &loads, std::size_t block, const ContactScene &scene,
                                        Losses<Pack> &losses);

@@ -55,8 +55,8 @@ void Snapshot::read(const Visit &visit) const
   const std::string stored = archive.read_text("parameters");
   if (stored != parameters_)
     throw ConfigError("the snapshot " + path_.string() + " belongs to other parameters (" +
-                           first_difference(stored, parameters_) +
-                           "); restart with those of the run, or start anew in another folder");
+                      first_difference(stored, parameters_) +
+                      "); restart with those of the run, or start anew in another folder");
   StateVisitor visitor(archive);
   visit(visitor);
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "dem/core/types.h"
 #include "dem/core/archive.h"
+#include "dem/core/state.h"
+#include "dem/core/types.h"
 
 #include <cstdint>
 #include <span>
@@ -28,6 +29,18 @@ public:
   void operator()(const std::string &name, std::vector<double> &values);
   void operator()(const std::string &name, std::vector<Vec3> &values);
   void operator()(const std::string &name, std::span<double> values); ///< of a length that is known
+
+  /// An object that names its state itself, see dem/core/state.h.
+  template <class T>
+  requires requires(T &object, StateReader &reader) { T::visit_state(object, reader); }
+  void operator()(const std::string &name, T &object)
+  {
+    const auto go_over = [&](auto inner) { T::visit_state(object, inner); };
+    if (reader_)
+      go_over(StateReader(*reader_, name));
+    else
+      go_over(StateWriter(*writer_, name));
+  }
 
   template <class Enum>
   requires std::is_enum_v<Enum>

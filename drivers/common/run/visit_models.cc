@@ -20,13 +20,4 @@ void visit_body(StateVisitor &visit, fe::MovingBody &body)
     visit("continuum/" + name, values);
 }
 
-void visit_loading(StateVisitor &visit, dem::CellLoading::State &loading)
-{
-  visit("loading/edges", loading.edges);
-  visit("loading/applied", loading.applied);
-  visit("loading/start_time", loading.start_time);
-  visit("loading/leg", loading.leg);
-  visit("loading/n_checks_passed", loading.n_checks_passed);
-}
-
 } // namespace bergamo::driver

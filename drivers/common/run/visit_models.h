@@ -1,6 +1,5 @@
 #pragma once
 
-#include "dem/loading/cell_loading.h"
 #include "dem/simulation.h"
 #include "drivers/common/run/state_visitor.h"
 #include "fe_dealii/moving_body.h"
@@ -18,8 +17,5 @@ std::unique_ptr<dem::Simulation> visit_grains(StateVisitor &visit, const dem::Si
 
 /// All that changes of a body from step to step. @param body set up as the one that was written
 void visit_body(StateVisitor &visit, fe::MovingBody &body);
-
-/// What a stage of a periodic cell keeps from step to step.
-void visit_loading(StateVisitor &visit, dem::CellLoading::State &loading);
 
 } // namespace bergamo::driver
