@@ -237,7 +237,7 @@ nlohmann::json measure(const Options &options)
     for (int round = 0; round < options.n_repeats; ++round) // in turns, so that other work meets all alike
       for (Measured &m : all)
       {
-        dem::Stopwatch watch;
+        Stopwatch watch;
         double list = 0.;
         const double start = cpu_ms();
         m.n_pairs = m.cloud.list(m.cloud.verlet_distance).size();
