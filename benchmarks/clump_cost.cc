@@ -4,8 +4,8 @@
 
 #include "benchmarks/program.h"
 #include "benchmarks/step_timing.h"
+#include "dem/motion/cell_control.h"
 #include "dem/packing/pack_grains.h"
-#include "dem/periodic/cell_control.h"
 
 #include <omp.h>
 

@@ -1,7 +1,7 @@
 // Time of one contact search, by angularity class of the dissertation (Wellmann, fig. 3.11): cold from the centre line,
 // and warm from the normal of a configuration nearby. Prints one table; --benchmark_format=json writes JSON.
 
-#include "dem/contact/common_normal.h"
+#include "dem/geometry/common_normal.h"
 #include "dem/packing/distribution.h"
 
 #include <benchmark/benchmark.h>

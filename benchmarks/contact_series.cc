@@ -8,8 +8,8 @@
 // Series 2: the made normal is stationary but need not be where phi is least: an overlap above the made one is wrong
 // (that also covers what is touching and was found apart without proof); one below it is right and counted as "lower".
 
-#include "dem/contact/common_normal.h"
-#include "dem/contact/pair_search.h"
+#include "dem/geometry/common_normal.h"
+#include "dem/geometry/pair_search.h"
 #include "dem/packing/distribution.h"
 
 #include <CLI/CLI.hpp>

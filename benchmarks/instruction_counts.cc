@@ -4,12 +4,12 @@
 // Usage: instruction_counts KERNEL PASSES; prints the items (contacts, pairs, grains) of one pass and the compiler.
 //        instruction_counts                prints the kernels
 
-#include "dem/contact/common_normal.h"
-#include "dem/contact/newton_search.h"
-#include "dem/contact/pose_lanes.h"
 #include "dem/force/contacts.h"
 #include "dem/force/follow.h"
 #include "dem/force/search_contacts.h"
+#include "dem/geometry/common_normal.h"
+#include "dem/geometry/newton_search.h"
+#include "dem/geometry/pose_lanes.h"
 #include "dem/motion/leapfrog.h"
 #include "dem/packing/distribution.h"
 

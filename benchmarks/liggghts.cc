@@ -1,7 +1,7 @@
 #include "benchmarks/liggghts.h"
 
 #include "dem/core/error.h"
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "benchmarks/engine_figures.h"
 #include "dem/core/error.h"
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
 #include "dem/packing/distribution.h"
 
 #include <algorithm>

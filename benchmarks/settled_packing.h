@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include <cstdint>
 #include <functional>

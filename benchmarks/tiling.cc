@@ -1,6 +1,6 @@
 #include "benchmarks/tiling.h"
 
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
 
 namespace bergamo::benchmark
 {

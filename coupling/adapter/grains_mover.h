@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/model/mover.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "dem/flow/inlet_parameters.h"
 #include "dem/flow/throughput.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include <cstdint>
 

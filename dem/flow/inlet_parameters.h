@@ -2,7 +2,7 @@
 
 #include "dem/packing/grading.h"
 #include "dem/packing/space.h"
-#include "dem/simulation_parameters.h"
+#include "dem/simulation/simulation_parameters.h"
 
 #include <cstdint>
 

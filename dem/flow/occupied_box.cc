@@ -1,7 +1,7 @@
 #include "dem/flow/occupied_box.h"
 
-#include "dem/contact/geometry.h"
 #include "dem/core/parallel.h"
+#include "dem/geometry/contact_geometry.h"
 
 #include <algorithm>
 #include <cstddef>

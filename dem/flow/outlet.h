@@ -2,7 +2,7 @@
 
 #include "dem/flow/throughput.h"
 #include "dem/packing/space.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include <cstdint>
 #include <variant>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dem/contact/centre_line.h"
 #include "dem/force/contact_state.h"
 #include "dem/force/pair_motion.h"
+#include "dem/geometry/centre_line.h"
 
 namespace bergamo::dem
 {
@@ -17,7 +17,7 @@ struct SphereGeometry
 
   Real half_distance, one_over_half_distance; ///< of the centres [m, 1/m]
 
-  /// @param half_line half of x2 - x1 [m]; spheres at one place get the normal of dem/contact/centre_line.h
+  /// @param half_line half of x2 - x1 [m]; spheres at one place get the normal of dem/geometry/centre_line.h
   SphereGeometry(const Vector3<Real> &half_line, const Real &radius_sum, const Real &radius_difference)
   {
     const Real square = half_line.squaredNorm();

@@ -1,8 +1,8 @@
 #include "dem/force/search_contacts.h"
 
-#include "dem/contact/pair_search.h"
 #include "dem/core/rotation_matrix.h"
 #include "dem/force/pair_motion.h"
+#include "dem/geometry/pair_search.h"
 
 #include <array>
 

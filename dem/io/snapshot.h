@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/core/archive.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include <memory>
 #include <string>

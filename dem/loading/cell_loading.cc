@@ -1,7 +1,7 @@
 #include "dem/loading/cell_loading.h"
 
 #include "dem/core/error.h"
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "dem/loading/loading_stage.h"
 #include "dem/measure/inertial_number.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/core/types.h"
-#include "dem/periodic/cell_control.h"
+#include "dem/motion/cell_control.h"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/core/types.h"
-#include "dem/shape/superquadric.h"
+#include "dem/geometry/superquadric.h"
 
 #include <random>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "dem/packing/gap_search.h"
 
-#include "dem/contact/pair_search.h"
+#include "dem/geometry/pair_search.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/contact/geometry.h"
+#include "dem/geometry/contact_geometry.h"
 #include "dem/packing/random_stream.h"
 
 #include <span>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "dem/geometry/rigid_clump.h"
 #include "dem/packing/overlap.h"
 #include "dem/packing/space.h"
-#include "dem/shape/rigid_clump.h"
 
 #include <cstdint>
 #include <span>

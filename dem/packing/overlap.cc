@@ -1,6 +1,6 @@
 #include "dem/packing/overlap.h"
 
-#include "dem/contact/newton_search.h"
+#include "dem/geometry/newton_search.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/contact/geometry.h"
-#include "dem/shape/superquadric.h"
+#include "dem/geometry/contact_geometry.h"
+#include "dem/geometry/superquadric.h"
 
 namespace bergamo::dem
 {

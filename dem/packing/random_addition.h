@@ -1,7 +1,7 @@
 #pragma once
 
+#include "dem/geometry/rigid_clump.h"
 #include "dem/packing/space.h"
-#include "dem/shape/rigid_clump.h"
 #include "dem/state/particles.h"
 
 #include <cstdint>

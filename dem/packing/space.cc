@@ -1,8 +1,8 @@
 #include "dem/packing/space.h"
 
 #include "dem/core/error.h"
+#include "dem/geometry/orientation.h"
 #include "dem/packing/polyhedron.h"
-#include "dem/shape/orientation.h"
 
 #include <algorithm>
 #include <cmath>

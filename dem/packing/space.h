@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/contact/geometry.h"
 #include "dem/core/types.h"
+#include "dem/geometry/contact_geometry.h"
 
 #include <optional>
 #include <span>

@@ -3,10 +3,10 @@
 #include "dem/core/error.h"
 #include "dem/core/parallel.h"
 #include "dem/core/rows.h"
+#include "dem/geometry/orientation.h"
 #include "dem/packing/gap_search.h"
 #include "dem/packing/grain_grid.h"
 #include "dem/packing/grain_move.h"
-#include "dem/shape/orientation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "dem/state/particles.h"
 
 #include "dem/core/error.h"
-#include "dem/shape/orientation.h"
-#include "dem/shape/rigid_clump.h"
+#include "dem/geometry/orientation.h"
+#include "dem/geometry/rigid_clump.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/shape/clump.h"
+#include "dem/geometry/clump.h"
 #include "drivers/common/parameter_binding.h"
 
 namespace bergamo::driver

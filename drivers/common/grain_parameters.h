@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/packing/distribution.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 #include "drivers/common/parameter_file.h"
 
 #include <string>

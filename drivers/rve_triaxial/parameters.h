@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dem/packing/pack_grains.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 #include "drivers/common/grading_parameters.h"
 #include "drivers/common/stage_parameters.h"
 

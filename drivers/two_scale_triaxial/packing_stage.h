@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/packing/compression.h"
-#include "dem/simulation.h"
+#include "dem/loading/compression.h"
+#include "dem/simulation/simulation.h"
 #include "drivers/common/run/run.h"
 #include "drivers/two_scale_triaxial/parameters.h"
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "coupling/adapter/two_scale_model.h"
+#include "dem/loading/compression.h"
 #include "dem/loading/strain_program.h"
-#include "dem/packing/compression.h"
 #include "dem/packing/distribution.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 #include "drivers/common/parameter_file.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 

@@ -9,7 +9,7 @@
 // axes) are drawn often: that is where Newton's method meets symmetry, flat faces and kinks. One pair in sixteen shares
 // its centre, or nearly so.
 
-#include "dem/contact/pair_search.h"
+#include "dem/geometry/pair_search.h"
 #include "tests/unit/dem_contact_reference.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include "dem/core/error.h"
-#include "dem/shape/clump_mass.h"
+#include "dem/geometry/clump_mass.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

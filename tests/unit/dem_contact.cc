@@ -1,6 +1,6 @@
-#include "dem/contact/pair_search.h"
 #include "dem/core/tangent_frame.h"
-#include "dem/shape/superquadric.h"
+#include "dem/geometry/pair_search.h"
+#include "dem/geometry/superquadric.h"
 #include "tests/unit/dem_contact_pairs.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "dem/contact/centre_line.h"
-#include "dem/contact/pair_search.h"
+#include "dem/geometry/centre_line.h"
+#include "dem/geometry/pair_search.h"
 #include "tests/unit/dem_contact_pairs.h"
 
 #include <algorithm>

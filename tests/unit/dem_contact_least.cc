@@ -1,4 +1,4 @@
-#include "dem/contact/pair_search.h"
+#include "dem/geometry/pair_search.h"
 #include "tests/unit/dem_contact_pairs.h"
 #include "tests/unit/dem_contact_reference.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "dem/contact/common_normal.h"
-#include "dem/shape/superquadric.h"
+#include "dem/geometry/common_normal.h"
+#include "dem/geometry/superquadric.h"
 
 #include <random>
 

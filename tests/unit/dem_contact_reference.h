@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/contact/geometry.h"
+#include "dem/geometry/contact_geometry.h"
 
 #include <algorithm>
 #include <array>

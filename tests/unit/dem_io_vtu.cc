@@ -1,8 +1,8 @@
 #include "dem/core/error.h"
 #include "dem/core/pvd.h"
+#include "dem/geometry/clump_mass.h"
+#include "dem/geometry/rigid_clump.h"
 #include "dem/io/vtu.h"
-#include "dem/shape/clump_mass.h"
-#include "dem/shape/rigid_clump.h"
 
 #include "tests/temporary_folder.h"
 

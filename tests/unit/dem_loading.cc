@@ -1,6 +1,6 @@
 #include "dem/core/error.h"
 #include "dem/loading/loading_stage.h"
-#include "dem/periodic/cell_control.h"
+#include "dem/motion/cell_control.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

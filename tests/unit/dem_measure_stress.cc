@@ -1,6 +1,6 @@
 #include "dem/core/error.h"
+#include "dem/loading/compression.h"
 #include "dem/measure/stress.h"
-#include "dem/packing/compression.h"
 #include "dem/packing/distribution.h"
 #include "tests/threads.h"
 #include "tests/unit/dem_measure_contacts.h"

@@ -1,4 +1,4 @@
-#include "dem/contact/common_normal.h"
+#include "dem/geometry/common_normal.h"
 #include "dem/packing/distribution.h"
 #include "dem/packing/grain_move.h"
 #include "dem/packing/overlap.h"

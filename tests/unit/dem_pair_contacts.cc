@@ -1,4 +1,4 @@
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 #include "tests/threads.h"
 
 #include <catch2/catch.hpp>

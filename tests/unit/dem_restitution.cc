@@ -1,7 +1,7 @@
 #include "dem/core/error.h"
 #include "dem/law/hertz.h"
 #include "dem/law/restitution.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "dem/core/error.h"
-#include "dem/shape/orientation.h"
-#include "dem/shape/superquadric.h"
+#include "dem/geometry/orientation.h"
+#include "dem/geometry/superquadric.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
-#include "dem/contact/geometry.h"
 #include "dem/core/tangent_frame.h"
-#include "dem/shape/superquadric.h"
+#include "dem/geometry/contact_geometry.h"
+#include "dem/geometry/superquadric.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

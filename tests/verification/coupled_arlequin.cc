@@ -5,7 +5,7 @@
 
 #include "coupling/adapter/dealii_adapter.h"
 #include "coupling/adapter/two_scale_model.h"
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "fe_dealii/mesh/box_mesh.h"

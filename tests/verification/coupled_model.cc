@@ -5,7 +5,7 @@
 #include "coupling/adapter/dealii_adapter.h"
 #include "coupling/model/model.h"
 #include "dem/core/error.h"
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "fe_dealii/membrane_body.h"

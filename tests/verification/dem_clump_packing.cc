@@ -1,10 +1,10 @@
 #include "dem/core/error.h"
 #include "dem/io/snapshot.h"
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
+#include "dem/motion/cell_control.h"
 #include "dem/packing/overlap.h"
 #include "dem/packing/pack_grains.h"
-#include "dem/periodic/cell_control.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include "tests/temporary_folder.h"
 #include "tests/threads.h"

@@ -1,7 +1,7 @@
 #include "dem/core/error.h"
-#include "dem/shape/clump_mass.h"
-#include "dem/shape/rigid_clump.h"
-#include "dem/simulation.h"
+#include "dem/geometry/clump_mass.h"
+#include "dem/geometry/rigid_clump.h"
+#include "dem/simulation/simulation.h"
 
 #include "tests/threads.h"
 

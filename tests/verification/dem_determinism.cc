@@ -1,8 +1,8 @@
 #include "dem/io/snapshot.h"
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include "tests/threads.h"
 #include <algorithm>

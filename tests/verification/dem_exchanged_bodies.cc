@@ -1,6 +1,6 @@
 #include "dem/force/contacts.h"
 #include "dem/motion/leapfrog.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 #include "tests/threads.h"
 
 #include <catch2/catch.hpp>

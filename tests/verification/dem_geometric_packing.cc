@@ -1,5 +1,5 @@
-#include "dem/contact/common_normal.h"
 #include "dem/core/error.h"
+#include "dem/geometry/common_normal.h"
 #include "dem/packing/pack_grains.h"
 #include "tests/threads.h"
 

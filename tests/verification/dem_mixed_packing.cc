@@ -1,7 +1,7 @@
-#include "dem/packing/compression.h"
+#include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include "tests/threads.h"
 #include <algorithm>

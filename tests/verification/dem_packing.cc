@@ -1,9 +1,9 @@
-#include "dem/contact/common_normal.h"
 #include "dem/core/error.h"
-#include "dem/packing/compression.h"
+#include "dem/geometry/common_normal.h"
+#include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,9 +1,9 @@
 #include "dem/core/error.h"
 #include "dem/io/snapshot.h"
+#include "dem/motion/cell_control.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
-#include "dem/periodic/cell_control.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 
 #include "tests/temporary_folder.h"
 #include "tests/threads.h"

@@ -1,7 +1,7 @@
+#include "dem/geometry/superquadric.h"
 #include "dem/law/hertz.h"
 #include "dem/law/restitution.h"
-#include "dem/shape/superquadric.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 #include "tests/threads.h"
 
 #include <catch2/catch.hpp>

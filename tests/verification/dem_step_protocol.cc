@@ -1,5 +1,5 @@
 #include "dem/core/error.h"
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 #include "tests/threads.h"
 
 #include <algorithm>

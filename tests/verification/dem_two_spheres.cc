@@ -1,5 +1,5 @@
-#include "dem/contact/common_normal.h"
-#include "dem/simulation.h"
+#include "dem/geometry/common_normal.h"
+#include "dem/simulation/simulation.h"
 
 #include "tests/threads.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "dem/force/kinds/grain_plane.h"
 
-#include "dem/contact/geometry.h"
 #include "dem/force/follow.h"
+#include "dem/geometry/contact_geometry.h"
 
 namespace bergamo::dem
 {

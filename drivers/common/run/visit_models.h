@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dem/simulation.h"
+#include "dem/simulation/simulation.h"
 #include "drivers/common/run/state_visitor.h"
 #include "fe_dealii/moving_body.h"
 

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "dem/packing/random_addition.h"
+#include "dem/simulation/simulation.h"
+
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Six rigid walls of a box in the order x-, x+, y-, y+, z-, z+.
+std::vector<PlaneWall> box_walls(const Box &box);
+
+/// The box between the first six walls of a simulation, at its present step.
+Box box_between(const std::vector<PlaneWall> &walls);
+
+/// Pressure on the walls of a box per direction, mean of both faces, compression positive [Pa].
+Vec3 wall_pressure(const std::vector<PlaneWall> &walls);
+
+/// How a packing is compressed.
+struct CompressionParameters
+{
+  double pressure = 1000.;   ///< aimed at in every direction [Pa]
+  double largest_rate = 40.; ///< strain rate of the walls [1/s]
+  double pressure_tolerance = 0.01;
+  double force_tolerance = 0.01; ///< mean unbalanced over mean contact force
+  double longest_time = 0.5;     ///< [s]
+
+  /// Throws ConfigError for a value out of its range.
+  void validate() const;
+};
+
+/// Compresses the grains of a box between its six walls to a given isotropic pressure. A wall moves at a speed
+/// proportional to what its pressure misses, over the stiffness of its own contacts: a small share of the miss is made
+/// up in each step, so that the walls neither chatter nor overshoot whatever the grains' stiffness.
+class Compression
+{
+public:
+  explicit Compression(const CompressionParameters &parameters);
+
+  /// One step of the simulation, walls included. @throws RunError after the longest time
+  void step(Simulation &simulation);
+
+  /// All pressures hold and the grains rest.
+  bool is_finished() const { return n_checks_passed >= checks_needed; }
+
+  double n_checks_passed = 0.; ///< in a row
+  double unbalance = 1.;       ///< of the last check, see unbalanced_force()
+
+private:
+  static constexpr double checks_needed = 5.;
+
+  CompressionParameters p;
+};
+
+/// Mean resultant of the grains that have contacts over the mean contact force: 0 in perfect rest.
+double unbalanced_force(const Simulation &simulation);
+
+} // namespace bergamo::dem

@@ -1,0 +1,165 @@
+#pragma once
+
+#include "dem/core/phase_times.h"
+#include "dem/force/contacts.h"
+#include "dem/neighbour/neighbour_watch.h"
+#include "dem/simulation/accounts.h"
+#include "dem/simulation/divergence.h"
+#include "dem/simulation/energy.h"
+#include "dem/simulation/simulation_parameters.h"
+#include "dem/state/id_index.h"
+#include "dem/state/particles.h"
+#include "dem/state/wall.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace bergamo
+{
+class StateReader;
+}
+
+namespace bergamo::dem
+{
+
+/// What left a simulation or came into it.
+struct Exchange
+{
+  std::int64_t n_particles = 0;
+  double mass = 0.;                   ///< [kg]
+  Vec3 momentum = Vec3::Zero();       ///< at the half step before [kg m/s]
+  std::vector<std::int64_t> ids = {}; ///< in the order of the arrays
+};
+
+/// Grains and walls, stepped by leapfrog in the order of Wellmann's fig. 3.12. The protocol of a step is that of every
+/// mover: compute_forces(), kick(), then what is to be read of the step, then drift(). Reading changes nothing, forces
+/// may be asked for as often as one likes; forces from elsewhere are put into particles.external_force before kick().
+/// Velocities, of walls too, may be set between steps or before kick(): they count for the drift to come. The same bits
+/// on any number of threads and after any restart.
+class Simulation
+{
+public:
+  /// @param particles at least one; a periodic cell of theirs must be at least two ranges of contacts wide, and has
+  /// neither walls nor gravity. Throws ConfigError for whatever cannot run.
+  Simulation(const SimulationParameters &parameters, Particles particles, std::vector<PlaneWall> walls);
+
+  /// Goes on from a state that was stored. Throws RunError where the archive does not hold one.
+  /// @param parameters of the run; what change() may have altered is taken from the archive
+  Simulation(const SimulationParameters &parameters, StateReader &reader);
+
+  void compute_forces(); ///< contacts and their resultants at the present step; once a step, then nothing changes
+  void kick();           ///< fixes the forces of the step; particles.cell.acceleration has been set by now
+  void drift();          ///< velocities to the next half step, places to the next step; throws RunError on divergence
+
+  void integrate()
+  {
+    kick();
+    drift();
+  }
+  void step()
+  {
+    compute_forces();
+    integrate();
+  }
+
+  /// Goes on with other parameters, all but the elastic materials; between steps. Throws ConfigError for a material
+  /// that differs.
+  void change(const SimulationParameters &parameters);
+
+  /// Between steps: removes a wall, or adds one; later walls move up by one.
+  void remove_wall(std::int32_t index);
+  void add_wall(const PlaneWall &wall);
+
+  /// Removes particles at the present step, of which the forces are computed first if they were not. Ids of the others
+  /// stay, and so does the history of their contacts; the energy taken out is booked.
+  /// @param indices places in the arrays, in any order
+  Exchange remove(const std::vector<std::int32_t> &indices);
+
+  /// Adds particles between steps; they get new ids, in their order. What they bring in is booked.
+  /// Throws ConfigError as the constructor does. @param added without a cell of its own
+  Exchange add(const Particles &added);
+
+  /// Searches every contact anew at the next step, e.g. after the grains' weights have been changed.
+  void refresh_contacts() { contacts.refresh(particles); }
+
+  /// Stops all grains where they are.
+  void rest();
+
+  /// Starts the energy accounts (losses and works) anew from zero.
+  void reset_accounts();
+
+  /// Sorts the grains by place for locality; ids keep who is who.
+  void sort_by_place();
+
+  /// Energies at the present step: between compute_forces() and drift().
+  GrainEnergy energy() const;
+
+  /// Principal mean stresses of the periodic cell, tension positive (Wellmann 5.3) [Pa]. After compute_forces(), before
+  /// anything is removed.
+  Vec3 cell_stress() const { return contacts.virial().branch / particles.cell.volume(); }
+
+  /// See dem/motion/stable_step.h [s].
+  double stable_time_step() const;
+
+  /// Throws RunError naming grain, place and time if any state is not finite.
+  void check_finite() const;
+
+  const SimulationParameters &parameters() const { return p; }
+
+  /// What changes a rate by an acceleration has to reckon with the kick, not with the time step.
+  StepLengths steps() const { return {last_step, 0.5 * (last_step + p.time_step)}; }
+
+  std::int64_t n_rebuilds() const { return n_renewals; } ///< renewals of the neighbours since the start
+  std::int32_t index_of(const std::int64_t id) const { return index(id); } ///< place of a grain in the arrays
+  bool has(const std::int64_t id) const { return index.has(id); }
+
+  Particles particles;
+  std::vector<PlaneWall> walls;
+  Contacts contacts;
+  double time = 0.; ///< [s]
+  std::int64_t n_steps = 0;
+  PhaseTimes times;
+
+  /// All that a step depends on, by name: snapshot and hash follow from it. See dem/core/state.h.
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    visit("parameters", self.p);
+    visit("particles", self.particles);
+    visit("walls", self.walls);
+    visit("contacts", self.contacts);
+    visit("watch", self.watch);
+    visit("accounts", self.accounts);
+    visit("time", self.time);
+    visit("n_steps", self.n_steps);
+    visit("last_step", self.last_step);
+    visit("forces_are_known", self.forces_are_known);
+    visit("n_renewals", self.n_renewals);
+    visit("n_renewals_when_sorted", self.n_renewals_when_sorted);
+    visit("next_id", self.next_id);
+  }
+
+private:
+  Instant now() const { return {time, n_steps}; }
+  void set_range();
+  void check_cell() const;
+  void renew_neighbours();
+  void move_walls(double drift);
+  void take_order(const std::vector<std::int32_t> &order);
+  double kinetic_energy_of(std::size_t i) const;
+  double step_change_here() const;
+
+  SimulationParameters p;
+  std::vector<ContactLaw> laws; // by pair of materials
+  NeighbourWatch watch;
+  Accounts accounts;
+  IdIndex index;
+  double last_step = 0.; // the drift that led here [s]
+  bool forces_are_known = false;
+  std::int64_t n_renewals = 0, n_renewals_when_sorted = 0, next_id = 0;
+};
+
+/// Hash of all that a step depends on.
+std::uint64_t state_hash(const Simulation &simulation);
+
+} // namespace bergamo::dem
