@@ -47,7 +47,7 @@ Outcome compress(const dem::Simulation &packing, const double tolerance, const i
   outcome.searches =
       static_cast<double>(simulation.contacts.n_searches() - n_searches) / n_steps / simulation.contacts.n_touching();
   for (const dem::TouchingContact &c : simulation.contacts.touching(simulation.particles))
-    outcome.force[{c.first, c.second}] = c.state.forces.on_body1(c.state.normal);
+    outcome.force[{c.first, c.second}] = c.state.force();
   return outcome;
 }
 

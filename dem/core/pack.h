@@ -73,6 +73,11 @@ BERGAMO_INLINE Vector3<Real> select(const Mask<Real> &mask, const Vector3<Real> 
 {
   return {select(mask, yes[0], no[0]), select(mask, yes[1], no[1]), select(mask, yes[2], no[2])};
 }
+template <class Real>
+BERGAMO_INLINE Vector2<Real> select(const Mask<Real> &mask, const Vector2<Real> &yes, const Vector2<Real> &no)
+{
+  return {select(mask, yes[0], no[0]), select(mask, yes[1], no[1])};
+}
 
 using std::abs, std::sqrt, std::exp, std::log;
 

@@ -11,6 +11,20 @@ template <class Real>
 using TangentFrameOf = Eigen::Matrix<Real, 3, 2>;
 using TangentFrame = TangentFrameOf<double>;
 
+/// A vector's part in the tangent plane, as the frame sees it.
+template <class Real>
+Vector2<Real> in_frame(const TangentFrameOf<Real> &frame, const Vector3<Real> &v)
+{
+  return {frame.col(0).dot(v), frame.col(1).dot(v)};
+}
+
+/// The vector that the frame sees so.
+template <class Real>
+Vector3<Real> from_frame(const TangentFrameOf<Real> &frame, const Vector2<Real> &v)
+{
+  return frame.col(0) * v[0] + frame.col(1) * v[1];
+}
+
 /// Duff et al. 2017, Building an orthonormal basis, revisited.
 template <class Real>
 TangentFrameOf<Real> tangent_frame(const Vector3<Real> &n)

@@ -10,8 +10,11 @@ namespace bergamo
 template <class Real>
 using Vector3 = Eigen::Matrix<Real, 3, 1>;
 template <class Real>
+using Vector2 = Eigen::Matrix<Real, 2, 1, Eigen::DontAlign>; // so that structs of numbers have no holes
+template <class Real>
 using Matrix3 = Eigen::Matrix<Real, 3, 3>;
 
+using Vec2 = Vector2<double>;
 using Vec3 = Vector3<double>;
 using Mat3 = Matrix3<double>;
 using Quaternion = Eigen::Quaterniond; ///< unit, turns body vectors into global ones

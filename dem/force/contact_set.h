@@ -90,6 +90,8 @@ public:
     visit("friction_loss", self.losses.friction);
     visit("viscous_loss", self.losses.viscous);
     visit("curvature_work", self.losses.curvature);
+    visit("search_work", self.losses.search);
+    visit("quadrature_work", self.losses.quadrature);
     visit("n_undecided", self.n_undecided);
     visit("n_searches", self.n_searches);
   }

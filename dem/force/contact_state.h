@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/force/contact_law.h"
+#include "dem/geometry/contact_geometry.h"
 
 #include <limits>
 
@@ -8,33 +9,51 @@ namespace bergamo::dem
 {
 
 /// What a touching contact remembers from step to step. Plain doubles only, so that it is stored and restored as a
-/// block; for Real = Pack, a pack of contacts. Vectors are global; the normal points from body 1 to body 2.
+/// block; for Real = Pack, a pack of contacts. Vectors are global; the normal points from body 1 to body 2. The tangent
+/// frame (axis, normal x axis) turns with the contact: what stands in it keeps its numbers.
 template <class Real>
 struct ContactState
 {
+  using Forces = ContactForces<Real, Vector2<Real>>;
+
   Vector3<Real> normal;
+  Vector3<Real> axis;  ///< unit, tangential: the major one of the contact ellipse at the last search
   Vector3<Real> point; ///< contact point minus the midpoint of both centres (walls: minus the grain's centre) [m]
-  Vector3<Real> major_axis;
-  ContactForces<Real> forces;
-  Real overlap; ///< [m], > 0
+  Forces forces;       ///< in the tangent frame
+  Real overlap;        ///< [m], > 0
   HertzMindlin<Real> stiffness;
   Real reduced_mass; ///< [kg]
   Real weight;       ///< share of the contact in the virtual work
-  Real radius;       ///< that turns rotation into motion at the contact [m]
-  Real budget;       ///< relative motion at the contact that is left before it is searched anew [m]
-  Real spin;         ///< mean rotation about the normal since the last search [rad]
+  /// Radii of curvature of both surfaces less half the overlap, in the tangent frame [m]; no second ones at a plane.
+  CurvatureRadii<Real> radii1, radii2;
+  Real wear1, wear2; ///< share of the budget that a turn of the normal relative to body 1 or 2 uses up [1/rad]
+  Real budget;       ///< left before the contact is searched anew: from 1 down to 0; see also `lost`
 
+  /// The budget of a contact that a step could not follow, and has left as the last step left it.
+  static constexpr double lost = -std::numeric_limits<double>::infinity();
+
+  Real root() const { return math::sqrt(overlap); } ///< [m^0.5]
+  Real elastic_force() const { return dem::elastic_force(stiffness.normal, root()); }
+  Vector3<Real> second_axis() const { return normal.cross(axis); }
   EllipticStiffness<Real> tangential_stiffness() const
   {
-    return {stiffness.tangential_major, stiffness.tangential_minor, normal, major_axis};
+    return {stiffness.tangential_major, stiffness.tangential_minor};
   }
+
+  /// Tangential force on body 1 without the weight [N].
+  Vector3<Real> tangential_force() const { return axis * forces.tangential[0] + second_axis() * forces.tangential[1]; }
+
+  /// Force on body 1 with the weight [N].
+  Vector3<Real> force() const { return (tangential_force() - normal * forces.normal) * weight; }
 
   /// A contact about to begin: no force, no overlap yet.
   static ContactState begin()
   {
-    const Vector3<Real> zero(Real(0.), Real(0.), Real(0.));
     const Real nought(0.), one(1.);
-    return {zero, zero, zero, {zero, nought}, nought, {one, one, one}, one, nought, nought, nought, nought};
+    const Vector3<Real> zero(nought, nought, nought);
+    const CurvatureRadii<Real> none{nought, nought, nought};
+    return {zero,   zero,   zero,      {{nought, nought}, nought}, nought, {one, one, one}, one, nought, none, none,
+            nought, nought, Real(lost)};
   }
 
   /// Fills unused lanes: stays as it is, without weight, and is never due.
@@ -42,6 +61,7 @@ struct ContactState
   {
     ContactState s = begin();
     s.overlap = Real(1.);
+    s.radii1 = s.radii2 = {Real(1.), Real(1.), Real(0.)};
     s.budget = Real(std::numeric_limits<double>::infinity());
     return s;
   }
@@ -51,13 +71,15 @@ struct ContactState
 template <class Real>
 struct SphereContactState
 {
-  ContactForces<Real> forces;
+  ContactForces<Real, Vector3<Real>> forces;   ///< global
   Real root_overlap;                           ///< square root of the overlap [m^0.5]
   Real normal_stiffness, tangential_stiffness; ///< as in HertzMindlin
   Real reduced_mass, weight;
   Real radius_sum, radius_difference; ///< r1 + r2, r1 - r2 [m]
 
+  Real root() const { return root_overlap; }
   Real overlap() const { return root_overlap * root_overlap; }
+  Real elastic_force() const { return dem::elastic_force(normal_stiffness, root_overlap); }
 
   static SphereContactState idle()
   {
@@ -67,26 +89,31 @@ struct SphereContactState
 };
 
 /// Energy stored in a contact with its weight [J].
-struct ContactEnergy
+template <class Real>
+struct SpringEnergy
 {
-  double normal = 0., tangential = 0.;
+  Real normal = Real(0.), tangential = Real(0.);
 
-  double sum() const { return normal + tangential; }
+  Real sum() const { return normal + tangential; }
 };
+using ContactEnergy = SpringEnergy<double>;
+
+/// Of a contact in touch.
+template <class Real>
+SpringEnergy<Real> spring_energy(const ContactState<Real> &s)
+{
+  return {s.weight * elastic_energy(s.elastic_force(), s.overlap),
+          s.weight * tangential_energy(s.tangential_stiffness(), s.forces.tangential, s.root())};
+}
 
 inline ContactEnergy stored_energy(const ContactState<double> &s)
 {
-  if (!(s.overlap > 0.))
-    return {};
-  const double root = std::sqrt(s.overlap);
-  return {s.weight * 0.4 * s.stiffness.normal * root * s.overlap * s.overlap,
-          s.weight * tangential_energy(s.tangential_stiffness(), s.forces.tangential, root)};
+  return s.overlap > 0. ? spring_energy(s) : ContactEnergy{};
 }
 
 inline ContactEnergy stored_energy(const SphereContactState<double> &s)
 {
-  const double overlap = s.overlap();
-  return {s.weight * 0.4 * s.normal_stiffness * s.root_overlap * overlap * overlap,
+  return {s.weight * elastic_energy(s.elastic_force(), s.overlap()),
           s.weight *
               tangential_energy(RoundStiffness<double>(s.tangential_stiffness), s.forces.tangential, s.root_overlap)};
 }
@@ -95,62 +122,32 @@ inline ContactEnergy stored_energy(const SphereContactState<double> &s)
 template <class State>
 ContactLosses release(const State &s)
 {
-  return {stored_energy(s).tangential, 0., 0.};
+  return {.friction = stored_energy(s).tangential};
 }
 
 /// Losses when a contact came apart during this step: those of its last step (trapezoidal rule), and its spring's.
-/// @param s as last step left it; @param normal last step's
-/// @param displacement motion of body 2 relative to body 1 at the contact point since last step [m]
-template <class State>
-ContactLosses separate(const State &s, const Vec3 &normal, const Vec3 &displacement)
+/// @param s as last step left it; @param motion since
+template <class State, class Vector>
+ContactLosses separate(const State &s, const ContactMotion<double, Vector> &motion)
 {
   ContactLosses losses = release(s);
-  losses.viscous = stored_energy(s).normal - s.weight * 0.5 * s.forces.normal * normal.dot(displacement);
-  losses.friction += s.weight * 0.5 * s.forces.tangential.dot(displacement);
+  const double elastic = s.elastic_force(), half_way = 0.5 * s.weight * motion.approach;
+  losses.friction += 0.5 * s.weight * s.forces.tangential.dot(motion.sliding);
+  losses.viscous = (s.forces.normal - elastic) * half_way;
+  losses.quadrature = -stored_energy(s).normal - elastic * half_way;
   return losses;
-}
-
-/// Takes over the result of a contact search for a touching pair; the tangential force turns with the contact.
-/// @param[in,out] s with forces and spin of the last step, or ContactState::begin()
-template <class Real>
-void take_geometry(ContactState<Real> &s, const Vector3<Real> &normal, const Real &overlap,
-                   const RelativeCurvature<Real> &curvature, const ElasticPair &elastic)
-{
-  s.forces.tangential = turn_force(s.forces.tangential, normal, s.spin);
-  s.normal = normal;
-  s.overlap = overlap;
-  s.major_axis = curvature.major_axis;
-  s.stiffness = hertz_mindlin(curvature.a, curvature.b, elastic);
-  s.spin = Real(0.);
 }
 
 /// Forces of a contact whose geometry is at this step.
 /// @param old_overlap last step's, 0 for a new contact [m]; @param[in,out] losses with the weight [J]
-/// @return force on body 1 with the weight [N]
 template <class Real>
-Vector3<Real> advance_contact(ContactState<Real> &s, const ContactLaw &law, const Real &old_overlap,
-                              const Vector3<Real> &displacement, const double time_step, Losses<Real> &losses)
+void advance_contact(ContactState<Real> &s, const ContactLaw &law, const Real &old_overlap,
+                     const ContactMotion<Real, Vector2<Real>> &motion, const double time_step, Losses<Real> &losses)
 {
   Losses<Real> lost;
-  advance_forces(law, s.normal, s.stiffness.normal, s.tangential_stiffness(), s.reduced_mass, math::sqrt(s.overlap),
-                 math::sqrt(old_overlap), displacement, time_step, s.forces, lost);
-  losses.friction += s.weight * lost.friction;
-  losses.viscous += s.weight * lost.viscous;
-  return s.forces.on_body1(s.normal) * s.weight;
-}
-
-/// Energy that a change of the stiffness puts into a contact at the overlap of last step [J], with the weight.
-/// @param before, after as last step left the contact and with the stiffness of this one
-template <class Real>
-Real curvature_work(const ContactState<Real> &before, const ContactState<Real> &after, const Real &old_overlap)
-{
-  const Real root = math::sqrt(old_overlap);
-  const auto energy = [&](const ContactState<Real> &s) -> Real
-  {
-    return s.weight * (Real(0.4) * s.stiffness.normal * root * old_overlap * old_overlap +
-                       tangential_energy(s.tangential_stiffness(), s.forces.tangential, root));
-  };
-  return math::select(old_overlap > Real(0.), Real(energy(after) - energy(before)), Real(0.));
+  advance_forces(law, s.stiffness.normal, s.tangential_stiffness(), s.reduced_mass, math::sqrt(s.overlap),
+                 math::sqrt(old_overlap), motion, time_step, s.forces, lost);
+  losses += lost * s.weight;
 }
 
 } // namespace bergamo::dem

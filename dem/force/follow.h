@@ -1,8 +1,8 @@
 #pragma once
 
 #include "dem/core/parallel.h"
-#include "dem/force/contact_state.h"
 #include "dem/force/contact_store.h"
+#include "dem/force/contact_turn.h"
 #include "dem/force/load_sums.h"
 #include "dem/force/pair_motion.h"
 
@@ -11,42 +11,53 @@
 namespace bergamo::dem
 {
 
-/// A contact after a step along the rigid motion of its bodies.
+/// A contact after a step along the motion of its bodies.
 template <class Real>
 struct Followed
 {
-  math::Mask<Real> is_due; ///< to be searched anew: its state is left as last step left it
+  math::Mask<Real> is_due; ///< to be searched anew
   Vector3<Real> force;     ///< on body 1 with the weight, zero where due [N]
 };
 
-/// Brings touching contacts to this step along the rigid motion of their bodies, with the normal held. Due are those
-/// whose motion budget is used up and those that may have come apart.
+/// Brings touching contacts to this step along the motion of their bodies, see ContactTurn. Due are those whose budget
+/// is used up; and lost, left as the last step left them, those that may have come apart or turned too far in one step.
 /// @param motion of the bodies, see PairMotion; @param[in,out] losses with the weights [J]
 template <class Real, class Motion>
 Followed<Real> follow(ContactState<Real> &state, const Motion &motion, const ContactLaw &law, Losses<Real> &losses)
 {
-  constexpr double largest_spin = 0.1; // that a force is turned by at once [rad]
   ContactState<Real> next = state;
-  const Vector3<Real> displacement = motion.displacement(state.point);
-  next.overlap = state.overlap - state.normal.dot(displacement);
-  next.budget = state.budget - motion.bound(displacement, state.radius);
-  next.spin = state.spin + motion.turn_about(state.normal);
-  // Whatever is no number is due: the search mends it, or its force stops the run.
-  const math::Mask<Real> is_due =
-      !(next.budget >= Real(0.)) || !(next.overlap > Real(0.)) || !(math::abs(next.spin) < Real(largest_spin));
-  next.overlap = math::select(is_due, state.overlap, next.overlap);
+  TangentFrameOf<Real> frame;
+  frame << state.axis, state.second_axis();
+  const Vector3<Real> at_old_point = motion.displacement(state.point);
+  const ContactTurn<Real> turn = motion.turn(state, frame, at_old_point);
+  const Vector3<Real> displacement = at_old_point + motion.displacement_by(turn.shift * Real(0.5));
+  const ContactMotion<Real, Vector2<Real>> seen = motion_in_frame(state.normal, frame, turn, displacement);
+  turn_frame(next, frame, turn);
+  next.point += turn.shift;
+  next.overlap += seen.approach;
+  next.budget -= turn.wear;
+  // Whatever is no number is lost: the search mends it, or its force stops the run.
+  const math::Mask<Real> is_lost = !(next.overlap > Real(0.)) ||
+                                   !(magnitude(turn.tilt) + math::abs(turn.spin) < Real(largest_turn)) ||
+                                   !(turn.wear < Real(1.)),
+                         is_due = is_lost || !(next.budget >= Real(0.));
+  next.overlap = math::select(is_lost, state.overlap, next.overlap);
 
   Losses<Real> lost;
-  const Vector3<Real> force = advance_contact(next, law, state.overlap, displacement, motion.time_step, lost);
-  losses.friction += math::select(is_due, Real(0.), lost.friction);
-  losses.viscous += math::select(is_due, Real(0.), lost.viscous);
-
-  state.overlap = next.overlap;
-  state.budget = math::select(is_due, state.budget, next.budget);
-  state.spin = math::select(is_due, state.spin, next.spin);
-  state.forces.normal = math::select(is_due, state.forces.normal, next.forces.normal);
-  state.forces.tangential = math::select<Real>(is_due, state.forces.tangential, next.forces.tangential);
-  return {is_due, math::select<Real>(is_due, Vector3<Real>(Real(0.), Real(0.), Real(0.)), force)};
+  advance_contact(next, law, state.overlap, seen, motion.time_step, lost);
+  losses += losses_where<Real>(!is_lost, lost);
+  if (math::any(is_lost)) // seldom
+  {
+    const auto keep = [&](auto &field, const auto &old) { field = math::select<Real>(is_lost, old, field); };
+    keep(next.normal, state.normal);
+    keep(next.axis, state.axis);
+    keep(next.point, state.point);
+    keep(next.forces.tangential, state.forces.tangential);
+    next.forces.normal = math::select(is_lost, state.forces.normal, next.forces.normal);
+    next.budget = math::select(is_lost, Real(next.lost), next.budget);
+  }
+  state = next;
+  return {is_due, math::select<Real>(is_due, Vector3<Real>(Real(0.), Real(0.), Real(0.)), state.force())};
 }
 
 /// Follows one block of contacts and adds what they give. @return lanes to be searched anew, which add nothing

@@ -2,6 +2,7 @@
 
 #include "dem/core/pack_vectors.h"
 #include "dem/force/contact_search.h"
+#include "dem/force/contact_turn.h"
 #include "dem/state/particles.h"
 
 namespace bergamo::dem
@@ -41,28 +42,43 @@ struct PairMotion
     velocity += load_image(p.cell.velocity);
   }
 
-  /// Motion of body 2 relative to body 1 at a contact point, with the arms of the middle of the step [m].
-  /// @param point minus the midpoint of the centres [m]
+  /// Half of x2 - x1 in the middle of the step [m].
+  Vector3<Real> middle() const { return half_line - velocity * Real(0.25 * time_step); }
+
+  /// Motion of body 2 relative to body 1 at a contact point [m]. @param point minus the midpoint of the centres [m]
   Vector3<Real> displacement(const Vector3<Real> &point) const
   {
-    const Vector3<Real> middle = half_line - velocity * Real(0.25 * time_step);
-    return (velocity + spin_difference.cross(point) - spin_sum.cross(middle)) * Real(time_step);
+    return (velocity + spin_difference.cross(point) - spin_sum.cross(middle())) * Real(time_step);
+  }
+
+  /// What a step of the point adds to the displacement [m].
+  Vector3<Real> displacement_by(const Vector3<Real> &step) const
+  {
+    return spin_difference.cross(step) * Real(time_step);
   }
 
   /// Mean rotation of both bodies about a unit vector [rad].
   Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin_sum) * Real(0.5 * time_step); }
 
-  /// Bound of the relative motion at a contact with the normal held [m]: the displacement plus both rotations, each
-  /// over the given radius, in the norm of the sum of magnitudes, which takes no roots.
-  Real bound(const Vector3<Real> &displacement, const Real &radius) const
+  /// How the contact turns and moves with the step: the common normal of both surfaces, by their curvatures.
+  /// @param frame of the last step; @param displacement there
+  ContactTurn<Real> turn(const ContactState<Real> &s, const TangentFrameOf<Real> &frame,
+                         const Vector3<Real> &displacement) const
   {
-    Real path(0.), turns(0.);
-    for (int d = 0; d < 3; ++d)
-    {
-      path = path + math::abs(displacement[d]);
-      turns = turns + math::max(math::abs(spin_sum[d]), math::abs(spin_difference[d])); // |w1| + |w2|
-    }
-    return path + radius * turns * Real(time_step);
+    const Real half(0.5 * time_step);
+    const Vector2<Real> sum = in_frame<Real>(frame, spin_sum) * half,
+                        difference = in_frame<Real>(frame, spin_difference) * half;
+    // w x n in the frame
+    const Vector2<Real> roll1(sum[1] - difference[1], difference[0] - sum[0]),
+        roll2(sum[1] + difference[1], -sum[0] - difference[0]);
+    const Vector2<Real> asked = in_frame(frame, displacement) + s.radii1 * roll1 + s.radii2 * roll2;
+    const Vector2<Real> tilt = (s.radii1 + s.radii2).solve(asked);
+    const Vector2<Real> turn1 = tilt - roll1, turn2 = tilt - roll2;
+    const Real twist = math::abs(s.normal.dot(spin_difference) * half);
+    const Vector2<Real> beside = (s.radii1 * turn1 - s.radii2 * turn2) * Real(0.5);
+    return {tilt, turn_about(s.normal),
+            (spin_sum.cross(s.point) - spin_difference.cross(middle())) * half + from_frame(frame, beside),
+            s.wear1 * (magnitude(turn1) + twist) + s.wear2 * (magnitude(turn2) + twist)};
   }
 };
 

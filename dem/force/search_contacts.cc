@@ -2,7 +2,9 @@
 
 #include "dem/core/rotation_matrix.h"
 #include "dem/force/pair_motion.h"
+#include "dem/force/searched_contact.h"
 #include "dem/geometry/pair_search.h"
+#include "dem/geometry/turn_wear.h"
 
 #include <array>
 
@@ -98,7 +100,7 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
   if (p.cell.is_periodic())
     body2.position +=
         math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.cell.place[image(lane)]; });
-  const FoundContacts<Pack> found = search_pairs<Pack>(body1, body2, guess, n);
+  const FoundContacts<Pack> found = search_pairs<Pack>(body1, body2, guess, n, scene.parameters.overlap_tolerance);
   for (int lane = 0; lane < n; ++lane)
   {
     ContactSearch &search = searches[lane];
@@ -113,28 +115,28 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
 
   const PairMotion<Pack> motion(p, first, second, image, scene.time_step);
   const double bound = scene.parameters.curvature_bound;
-  const RelativeCurvature<Pack> curvature =
-      relative_curvature(tangent_frame(found.normal), principal_radii(body1, found.normal, found.radii1),
-                         curvature_bounds(body1.shape, bound), principal_radii(body2, found.normal, found.radii2),
-                         curvature_bounds(body2.shape, bound));
-  const Pack old_overlap = s.overlap;
-  s.spin += motion.turn_about(s.normal);
-  const ContactState<Pack> before = s;
-  take_geometry(s, found.normal, found.overlap, curvature, scene.law.elastic);
-  s.point = (found.arm1 + found.arm2) * Pack(0.5);
+  const RelativeCurvature<Pack> curvature = relative_curvature(
+      found.frame, principal_radii(body1, found.normal, found.radii1), curvature_bounds(body1.shape, bound),
+      principal_radii(body2, found.normal, found.radii2), curvature_bounds(body2.shape, bound));
+  Vector3<Pack> point = (found.arm1 + found.arm2) * Pack(0.5);
   if (p.has_clumps())
-    s.point += (part_arm1 + part_arm2) * Pack(0.5);
+    point += (part_arm1 + part_arm2) * Pack(0.5);
+  const ContactState<Pack> before = s;
+  place_contact(s, found.normal, point, found.overlap, curvature, scene.law.elastic);
+  const Pack half_overlap = found.overlap * Pack(0.5);
+  s.radii1 = seen_from(s.axis, found.frame, found.radii1) - half_overlap;
+  s.radii2 = seen_from(s.axis, found.frame, found.radii2) - half_overlap;
+  const Pack error = Pack(scene.parameters.overlap_tolerance) * found.overlap;
+  give_budget(s, scene.parameters, turn_wear(radii_change(body1, found.normal, found.arm1), found.radii1, error),
+              turn_wear(radii_change(body2, found.normal, found.arm2), found.radii2, error));
   s.weight = contact_weight<Pack>(load(p.weight, first), load(p.weight, second), motion.half_line * Pack(2.),
                                   s.point + motion.half_line);
   const Pack mass1 = load(p.mass, first), mass2 = load(p.mass, second);
   s.reduced_mass = 1. / (1. / mass1 + 1. / mass2);
-  s.radius = math::min(load(p.parts.bounding_radius, first_part), load(p.parts.bounding_radius, second_part));
-  s.budget = motion_budget(scene.parameters, s.radius, s.overlap, (found.radii1 + found.radii2).norm());
 
   Losses<Pack> lost;
-  lost.curvature = curvature_work(before, s, old_overlap);
-  const Vector3<Pack> force =
-      advance_contact(s, scene.law, old_overlap, motion.displacement(s.point), scene.time_step, lost);
+  take_search(s, before, motion, scene, lost);
+  const Vector3<Pack> force = s.force();
   const Vector3<Pack> torque1 = (motion.half_line + s.point).cross(force),
                       torque2 = (motion.half_line - s.point).cross(force);
   for (int lane = 0; lane < n; ++lane)
@@ -142,8 +144,7 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
     ContactSearch &search = searches[lane];
     if (!search.is_touching)
       continue;
-    losses += ContactLosses{math::lane(lost.friction, lane), math::lane(lost.viscous, lane),
-                            math::lane(lost.curvature, lane)};
+    losses += lost.of_lane(lane);
     search.resultant = {math::lane<Pack>(force, lane), math::lane<Pack>(torque1, lane),
                         math::lane<Pack>(torque2, lane)};
     if (search.slot >= 0)

@@ -45,6 +45,15 @@ struct CurvatureRadii
   Real r11, r22, r12;
 
   CurvatureRadii operator+(const CurvatureRadii &o) const { return {r11 + o.r11, r22 + o.r22, r12 + o.r12}; }
+  CurvatureRadii operator-(const Real &round) const { return {r11 - round, r22 - round, r12}; }
+  Vector2<Real> operator*(const Vector2<Real> &v) const { return {r11 * v[0] + r12 * v[1], r12 * v[0] + r22 * v[1]}; }
+
+  /// The vector that the tensor takes to this one.
+  Vector2<Real> solve(const Vector2<Real> &v) const
+  {
+    const Real inverse = Real(1.) / (r11 * r22 - r12 * r12);
+    return {(r22 * v[0] - r12 * v[1]) * inverse, (r11 * v[1] - r12 * v[0]) * inverse};
+  }
 
   /// Frobenius norm [m].
   Real norm() const

@@ -82,7 +82,13 @@ public:
 
   /// @param body1, body2 must outlive the search; @param start unit vector
   NewtonSearch(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &start)
-      : best(body1, body2, start), body1(body1), body2(body2)
+      : NewtonSearch(body1, body2, Evaluation<Real>(body1, body2, start))
+  {
+  }
+
+  /// @param start evaluated already
+  NewtonSearch(const Pose<Real> &body1, const Pose<Real> &body2, const Evaluation<Real> &start)
+      : best(start), body1(body1), body2(body2)
   {
     const auto smallest = [](const SupportShape<Real> &s) { return math::min(math::min(s.r1, s.r2), s.r3); };
     length_scale = math::min(smallest(body1.shape), smallest(body2.shape));
@@ -93,6 +99,9 @@ public:
     step = model_step();
     decide();
   }
+
+  /// Leaves lanes as they are.
+  void close(const Mask &lanes) { is_open = is_open && !lanes; }
 
   /// Goes on until every lane is decided or the evaluations are used up.
   void run(const int max_evaluations)

@@ -4,6 +4,7 @@
 #include "dem/geometry/common_normal.h"
 #include "dem/geometry/newton_search.h"
 #include "dem/geometry/pose_lanes.h"
+#include "dem/geometry/turn_wear.h"
 
 #include <array>
 
@@ -17,7 +18,8 @@ struct FoundContacts
   Vector3<Real> normal;
   Real overlap; ///< > 0: touching; otherwise minus a lower bound of the gap [m]
   Vector3<Real> arm1, arm2;
-  CurvatureRadii<Real> radii1, radii2; ///< in tangent_frame(normal)
+  CurvatureRadii<Real> radii1, radii2; ///< in the frame
+  TangentFrameOf<Real> frame;          ///< of the normal
   std::array<bool, width<Real>> is_undecided = {};
   int n_alone = 0;       ///< lanes that the pack left to a search of their own
   int n_evaluations = 0; ///< all lanes together
@@ -47,16 +49,78 @@ void set_lane(CurvatureRadii<Real> &target, const int k, const CurvatureRadii<do
   set_lane(target.r22, k, value.r22);
   set_lane(target.r12, k, value.r12);
 }
+template <class Real>
+void set_lane(TangentFrameOf<Real> &target, const int k, const TangentFrame &value)
+{
+  for (int d = 0; d < 6; ++d)
+    set_lane(target(d), k, value(d));
+}
+
+template <class Real>
+FoundContacts<Real> found_at(const Evaluation<Real> &e)
+{
+  return {e.c, e.phi, e.arm1, e.arm2, e.radii1, e.radii2, tangent_frame(e.c)};
+}
+
+/// The minimum of the second-order model at a direction near it.
+template <class Real>
+struct ModelMinimum
+{
+  FoundContacts<Real> found;
+  math::Mask<Real> is_sure; ///< touching, and the model's error is below a thousandth of what is allowed
+
+  /// @param tolerance error allowed: of the overlap over the overlap, of the normal [rad]
+  ModelMinimum(const Pose<Real> &body1, const Pose<Real> &body2, const Evaluation<Real> &e, const double tolerance)
+      : found(found_at(e))
+  {
+    const TangentFrameOf<Real> &frame = found.frame;
+    const CurvatureRadii<Real> hessian = e.radii1 + e.radii2 - e.phi;
+    const Vector2<Real> gap = in_frame(frame, e.gap), tilt = hessian.solve(gap);
+    found.overlap = e.phi - Real(0.5) * tilt.dot(gap);
+    const Real error = Real(tolerance) * found.overlap;
+    const Real change1 = radii_change(body1, e.c, e.arm1), change2 = radii_change(body2, e.c, e.arm2);
+    const Real wear = turn_wear(change1, e.radii1, error) + turn_wear(change2, e.radii2, error);
+    const Real square = tilt.squaredNorm();
+    is_sure = found.overlap > Real(0.) && hessian.r11 > Real(0.) &&
+              hessian.r11 * hessian.r22 > hessian.r12 * hessian.r12 && square * wear * wear < Real(0.01) &&
+              square * (change1 + change2) < Real(2e-3 * tolerance);
+    found.arm1 += from_frame(frame, e.radii1 * tilt);
+    found.arm2 -= from_frame(frame, e.radii2 * tilt);
+    const Vector3<Real> normal = e.c + from_frame(frame, tilt);
+    found.normal = normal / math::sqrt(normal.squaredNorm());
+    const Vector3<Real> first = frame.col(0) - found.normal * found.normal.dot(frame.col(0));
+    found.frame.col(0) = first / math::sqrt(first.squaredNorm());
+    found.frame.col(1) = found.normal.cross(Vector3<Real>(found.frame.col(0)));
+  }
+};
+
+/// Takes lanes of another result.
+template <class Real>
+void replace_where(FoundContacts<Real> &found, const math::Mask<Real> &mask, const FoundContacts<Real> &other)
+{
+  found.overlap = math::select(mask, other.overlap, found.overlap);
+  for (auto vector : {&FoundContacts<Real>::normal, &FoundContacts<Real>::arm1, &FoundContacts<Real>::arm2})
+    found.*vector = math::select<Real>(mask, other.*vector, found.*vector);
+  for (auto radii : {&FoundContacts<Real>::radii1, &FoundContacts<Real>::radii2})
+    for (auto entry : {&CurvatureRadii<Real>::r11, &CurvatureRadii<Real>::r22, &CurvatureRadii<Real>::r12})
+      found.*radii.*entry = math::select(mask, other.*radii.*entry, found.*radii.*entry);
+  for (int axis = 0; axis < 2; ++axis)
+    found.frame.col(axis) =
+        math::select<Real>(mask, Vector3<Real>(other.frame.col(axis)), Vector3<Real>(found.frame.col(axis)));
+}
 
 } // namespace detail
 
-/// Searches a pack of pairs: all lanes together at first, then one by one those that are still open, or where the
-/// minimum found may be the wrong one. Each lane's result is find_contact's or update_contact's, to rounding.
+/// Searches a pack of pairs: by one evaluation where the guess is so good that this is enough; then all other lanes
+/// together; then one by one those that are still open, or where the minimum found may be the wrong one. Each lane's
+/// result is find_contact's or update_contact's, to rounding or within the tolerance.
 /// @param guess normals of earlier, nearby configurations, of any length; zero for a pair without
 /// @param n lanes that count, from the first; the others must hold valid bodies
+/// @param tolerance error of the overlap that is allowed, over the overlap, of which one evaluation may leave a
+///        thousandth; 0: none
 template <class Real>
 FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &guess,
-                                 const int n)
+                                 const int n, const double tolerance = 0.)
 {
   constexpr int max_evaluations = 12; // together: more would wait for the last lanes
   const Vector3<Real> centre_line = body2.position - body1.position;
@@ -64,14 +128,31 @@ FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body
   const math::Mask<Real> is_known = guess_square > Real(0.);
   const Vector3<Real> start =
       math::select<Real>(is_known, Vector3<Real>(guess / math::sqrt(guess_square)), centre_direction(centre_line));
-  NewtonSearch<Real> search(body1, body2, start);
+  const Evaluation<Real> first(body1, body2, start);
+  math::Mask<Real> is_sure(false);
+  FoundContacts<Real> sure;
+  if (tolerance > 0. && math::any(is_known))
+  {
+    const detail::ModelMinimum<Real> model(body1, body2, first, tolerance);
+    is_sure = is_known && model.is_sure;
+    sure = model.found;
+    if (!math::any(!is_sure))
+    {
+      sure.n_evaluations = n;
+      return sure;
+    }
+  }
+  NewtonSearch<Real> search(body1, body2, first);
+  search.close(is_sure);
   search.run(max_evaluations);
 
   const Evaluation<Real> &e = search.best;
-  FoundContacts<Real> found{e.c, e.phi, e.arm1, e.arm2, e.radii1, e.radii2};
+  FoundContacts<Real> found = detail::found_at(e);
+  if (math::any(is_sure))
+    detail::replace_where(found, is_sure, sure);
   found.n_evaluations = search.n_evaluations * n;
   const math::Mask<Real> is_number = e.phi == e.phi; // a state that is none stops the run elsewhere
-  math::Mask<Real> is_doubtful = search.is_open || is_saddle(search);
+  math::Mask<Real> is_doubtful = !is_sure && (search.is_open || is_saddle(search));
   if (math::any(!is_known))
     is_doubtful = is_doubtful || (!is_known && is_suspicious(search));
   is_doubtful = is_doubtful && is_number;
@@ -92,6 +173,7 @@ FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body
       detail::set_lane(found.arm2, k, g.arm2);
       detail::set_lane(found.radii1, k, g.radii1);
       detail::set_lane(found.radii2, k, g.radii2);
+      detail::set_lane(found.frame, k, tangent_frame(g.normal));
       found.is_undecided[k] = g.status == ContactStatus::undecided;
       ++found.n_alone;
       found.n_evaluations += g.n_evaluations;

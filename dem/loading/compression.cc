@@ -122,7 +122,7 @@ double unbalanced_force(const Simulation &simulation)
     resultant += f;
     n_loaded += f > 0.;
   }
-  const auto add = [&](const ContactState<double> &s)
+  const auto add = [&](const ContactView &s)
   {
     contact += std::hypot(s.forces.normal, s.forces.tangential.norm());
     ++n_contacts;

@@ -21,7 +21,7 @@ double largest_relative_overlap(const Contacts &contacts, const Particles &parti
 /// Force on body 1 with the contact's weight [N].
 inline Vec3 force_on_body1(const TouchingContact &contact)
 {
-  return contact.state.weight * contact.state.forces.on_body1(contact.state.normal);
+  return contact.state.weight * contact.state.force();
 }
 
 } // namespace bergamo::dem

@@ -17,14 +17,14 @@ struct Motion
 /// Stiffness and damping of one touching contact, without the weight.
 struct Coefficients
 {
-  double normal, damping, root;
-  EllipticStiffness<double> tangential; ///< over the root of the overlap
+  double normal, damping, tangential_major, tangential_minor;
 };
 
-Coefficients coefficients(const ContactState<double> &s, const ContactLaw &law)
+Coefficients coefficients(const ContactView &s, const ContactLaw &law)
 {
   const double root = std::sqrt(s.overlap), normal = 1.5 * s.stiffness.normal * root;
-  return {normal, normal_damping(law, normal, s.reduced_mass), root, s.tangential_stiffness()};
+  return {normal, normal_damping(law, normal, s.reduced_mass), root * s.stiffness.tangential_major,
+          root * s.stiffness.tangential_minor};
 }
 
 /// Forces K x dt^2/4 + C x dt/2 of all contacts on a motion x, divided by mass and inertia.
@@ -42,11 +42,14 @@ public:
   {
     Motion y{std::vector<Vec3>(p.size(), Vec3::Zero()), std::vector<Vec3>(p.size(), Vec3::Zero())};
     stiff = damped = 0.;
-    const auto force_of = [&](const ContactState<double> &s, const ContactLaw &law, const Vec3 &d) -> Vec3
+    const auto force_of = [&](const ContactView &s, const ContactLaw &law, const Vec3 &d) -> Vec3
     {
       const Coefficients k = coefficients(s, law);
       const double along = s.normal.dot(d);
-      const Vec3 elastic = s.weight * (k.normal * along * s.normal + k.root * k.tangential.increment(d));
+      const Vec3 minor_axis = s.normal.cross(s.major_axis);
+      const Vec3 elastic =
+          s.weight * (k.normal * along * s.normal + k.tangential_major * s.major_axis.dot(d) * s.major_axis +
+                      k.tangential_minor * minor_axis.dot(d) * minor_axis);
       const Vec3 viscous = s.weight * k.damping * along * s.normal;
       stiff += elastic.dot(d);
       damped += viscous.dot(d);
@@ -55,7 +58,7 @@ public:
     for (const TouchingContact &contact : contacts)
     {
       const auto i = contact.first, j = contact.second;
-      const ContactState<double> &s = contact.state;
+      const ContactView &s = contact.state;
       const ContactLaw &law = laws[contact.law];
       if (j == no_grain)
       {

@@ -12,8 +12,11 @@ struct GrainEnergy
   double tangential = 0.;     ///< stored in their tangential springs
   double friction_loss = 0.;  ///< lost tangentially
   double viscous_loss = 0.;   ///< lost in the dashpots
-  double curvature_work = 0.; ///< put in by changes of the contacts' stiffness, see ContactLosses
-  double wall_work = 0.;      ///< done by walls on grains
+  double curvature_work = 0.; ///< put in by changes of the contacts' stiffness, see Losses
+  double search_work = 0.;    ///< put in by searches, which correct the overlaps that were followed
+  double quadrature_work =
+      0.;                ///< put in by the steps of time: trapezoidal work of the normal springs less their energy
+  double wall_work = 0.; ///< done by walls on grains
   double gravity_work = 0.;
   double external_work = 0.; ///< done by Particles::external_force
   double cell_work = 0.;     ///< done by the deformation of a periodic cell
@@ -24,8 +27,8 @@ struct GrainEnergy
   double stored() const { return kinetic + normal + tangential; }
   double balance() const
   {
-    return stored() + friction_loss + viscous_loss - curvature_work - wall_work - gravity_work - external_work -
-           cell_work - exchanged - step_change;
+    return stored() + friction_loss + viscous_loss - curvature_work - search_work - quadrature_work - wall_work -
+           gravity_work - external_work - cell_work - exchanged - step_change;
   }
 };
 

@@ -255,6 +255,8 @@ GrainEnergy Simulation::energy() const
   e.friction_loss = lost.friction;
   e.viscous_loss = lost.viscous;
   e.curvature_work = lost.curvature;
+  e.search_work = lost.search;
+  e.quadrature_work = lost.quadrature;
   e.wall_work = accounts.removed_wall_work;
   for (const PlaneWall &wall : walls)
     e.wall_work += wall.work;

@@ -194,8 +194,6 @@ TEST_CASE("a state of a contact that is no number is found in the same step, at 
       for (const bool is_renewal : {false, true})
         for (const bool is_refreshed : {false, true})
         {
-          if (is_refreshed && (name == "stiffness" || name == "weight") && kind != Kind::spheres)
-            continue; // a search finds both anew
           if (is_refreshed && name == "weight")
             continue; // and so does the refreshing
           Simulation simulation = start;

@@ -22,7 +22,6 @@ inline TouchingContact contact(const std::int32_t first, const std::int32_t seco
   c.first = first;
   c.second = second;
   c.branch = branch;
-  c.state = ContactState<double>::begin();
   c.state.normal = branch.normalized();
   c.state.forces = {tangential, normal_force};
   c.state.weight = 1.;

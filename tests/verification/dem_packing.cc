@@ -255,7 +255,7 @@ TEST_CASE("a packing compressed to 1 kPa rests there")
   std::size_t n_touching = 0;
   for (const TouchingContact &contact : simulation.contacts.touching(simulation.particles))
   {
-    const ContactState<double> &s = contact.state;
+    const ContactView &s = contact.state;
     deepest = std::max(deepest, s.overlap);
     ++n_touching;
     CHECK(s.forces.tangential.norm() <= 0.24 * s.forces.normal * (1. + 1e-12));

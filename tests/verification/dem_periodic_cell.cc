@@ -179,7 +179,7 @@ TEST_CASE("the mean stress over branches equals that over the faces up to the gr
     Mat3 branches = Mat3::Zero(), faces = Mat3::Zero();
     for (const TouchingContact &c : s.contacts.touching(s.particles))
     {
-      const Vec3 force = c.state.weight * c.state.forces.on_body1(c.state.normal);
+      const Vec3 force = c.state.weight * c.state.force();
       branches += c.branch * force.transpose();
       faces += s.particles.cell.place[c.image] * force.transpose();
     }

@@ -314,7 +314,9 @@ TEST_CASE("a dashpot lowers the restitution, more where it is stronger, and keep
     // What is gone from the motion is booked in the dashpot; the contact is over, nothing is stored.
     const GrainEnergy e = pair.simulation.energy();
     CHECK(e.stored() == Approx(pair.translational_energy()).epsilon(1e-12));
-    CHECK(e.viscous_loss == Approx(energy_before - pair.translational_energy()).epsilon(1e-10));
+    CHECK(e.viscous_loss - e.quadrature_work ==
+          Approx(energy_before - pair.translational_energy()).epsilon(1e-10));
+    CHECK(std::abs(e.quadrature_work) < 1e-4 * e.viscous_loss);
     CHECK(e.friction_loss == 0.);
     // Small damping: the loss of one impact to first order in zeta, the dashpot's work along the undamped motion. With
     // x = d/d_max, speed w sqrt(1 - x^2.5) and stiffness (15/8) m (w/d_max)^2 sqrt(x):
@@ -372,7 +374,7 @@ TEST_CASE("the energy balance of colliding grains of any shape closes")
   for (int run = 0; run < 8; ++run)
   {
     const Superquadric shape1 = grain_shape(generator, 0.6, 1.2), shape2 = grain_shape(generator, 0.6, 1.2);
-    std::array<double, 2> error{}, changed{};
+    std::array<double, 2> error{}, changed{}, open{};
     for (int fine = 0; fine < 2; ++fine)
     {
       SimulationParameters p = elastic_parameters();
@@ -388,28 +390,29 @@ TEST_CASE("the energy balance of colliding grains of any shape closes")
         pair.simulation.compute_forces();
         if (!before.empty() && pair.touches())
         {
-          const ContactState<double> now = pair.contacts()[0].state;
-          ContactState<double> turned = before[0].state;
-          const auto &omega = pair.simulation.particles.angular_velocity;
-          turned.spin = turned.normal.dot(0.5 * p.time_step * (omega[0] + omega[1]));
-          take_geometry(turned, now.normal, turned.overlap, RelativeCurvature<double>{1., 1., now.major_axis},
-                        elastic_pair(p.grain(), p.grain()));
-          turned.stiffness = now.stiffness;
-          const ContactEnergy old_energy = stored_energy(before[0].state), new_energy = stored_energy(turned);
-          change += new_energy.normal + new_energy.tangential - old_energy.normal - old_energy.tangential;
+          const ContactView now = pair.contacts()[0].state, old = before[0].state;
+          const Vec3 axis = (old.major_axis - now.normal * now.normal.dot(old.major_axis)).normalized();
+          const double normal = std::pow(now.overlap, 2.5), tangential = 0.5 / std::sqrt(now.overlap);
+          const auto stored = [&](const HertzMindlin<double> &k, const Vec3 &major)
+          {
+            const double f1 = now.forces.tangential.dot(major), f2 = now.forces.tangential.dot(now.normal.cross(major));
+            return 0.4 * k.normal * normal + tangential * (f1 * f1 / k.tangential_major + f2 * f2 / k.tangential_minor);
+          };
+          change += stored(now.stiffness, now.major_axis) - stored(old.stiffness, axis);
         }
         met = met || pair.touches();
         const double balance = pair.simulation.energy().balance();
         if (i == 0)
           start = balance;
         error[fine] = std::max(error[fine], std::abs(balance / start - 1.));
-        CHECK(std::abs(pair.simulation.energy().curvature_work - change) < 1e-9 * start);
+        open[fine] = std::max(open[fine], std::abs(pair.simulation.energy().curvature_work - change) / start);
         changed[fine] = std::max(changed[fine], std::abs(change) / start);
         pair.simulation.integrate();
       }
       REQUIRE(met);
     }
     std::printf("%5d %15.2e %15.2e %15.2e\n", run, changed[1], error[0], error[1]);
+    CHECK(open[1] < 1e-2 * changed[1]);
     sum[0] += error[0];
     sum[1] += error[1];
     worst = std::max(worst, error[1]);

@@ -2,6 +2,9 @@
 
 #include "dem/force/follow.h"
 #include "dem/force/search_contacts.h"
+#include "dem/force/searched_contact.h"
+
+#include <utility>
 
 namespace bergamo::dem
 {
@@ -20,15 +23,18 @@ void GrainGrain::search(const std::span<ContactSearch> searches, const SearchCon
 
 ContactLosses GrainGrain::end(const ContactSearch &search, const State &state, const ContactScene &scene)
 {
-  const PairMotion<double> motion = motion_of_pair(search, scene);
-  return separate(state, state.normal, motion.displacement(state.point));
+  return end_of(state, motion_of_pair(search, scene));
 }
 
 void GrainGrain::exchange_bodies(State &s)
 {
+  // The axis stays, the second one turns around.
   s.normal = -s.normal;
-  s.forces.tangential = -s.forces.tangential;
-  s.spin = -s.spin; // about the normal
+  s.forces.tangential[0] = -s.forces.tangential[0];
+  s.radii1.r12 = -s.radii1.r12;
+  s.radii2.r12 = -s.radii2.r12;
+  std::swap(s.radii1, s.radii2);
+  std::swap(s.wear1, s.wear2);
 }
 
 void GrainGrain::refresh(Store &store, const Particles &)
@@ -38,7 +44,8 @@ void GrainGrain::refresh(Store &store, const Particles &)
 
 TouchingContact GrainGrain::view(const ContactSearch &place, const State &state, const Particles &particles)
 {
-  return {place.first, place.second, state, particles.branch(place.first, place.second, place.image), place.image};
+  return {place.first, place.second, view_of(state), particles.branch(place.first, place.second, place.image),
+          place.image};
 }
 
 } // namespace bergamo::dem

@@ -1,7 +1,9 @@
 #include "dem/force/kinds/grain_plane.h"
 
 #include "dem/force/follow.h"
+#include "dem/force/searched_contact.h"
 #include "dem/geometry/contact_geometry.h"
+#include "dem/geometry/turn_wear.h"
 
 namespace bergamo::dem
 {
@@ -21,12 +23,20 @@ struct WallMotion
   {
     return (velocity - spin.cross(point)) * Real(time_step);
   }
-  Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin) * Real(0.5 * time_step); }
-  Real bound(const Vector3<Real> &displacement, const Real &radius) const
+
+  /// What a step of the point adds to the displacement [m].
+  Vector3<Real> displacement_by(const Vector3<Real> &step) const { return spin.cross(step) * Real(-time_step); }
+
+  /// As PairMotion::turn(): the plane's radii are infinite, so the normal is that of the plane.
+  ContactTurn<Real> turn(const ContactState<Real> &s, const TangentFrameOf<Real> &frame,
+                         const Vector3<Real> &displacement) const
   {
-    const auto size = [](const Vector3<Real> &v) -> Real
-    { return math::abs(v[0]) + math::abs(v[1]) + math::abs(v[2]); };
-    return size(displacement) + radius * size(spin) * Real(time_step);
+    const Vector3<Real> rotation = spin * Real(time_step);
+    const Vector2<Real> about = in_frame(frame, rotation), roll(about[1], -about[0]);
+    const Real half_spin = Real(0.5) * s.normal.dot(rotation); // the mean of both bodies
+    const Vector3<Real> shift =
+        rotation.cross(s.point) - from_frame(frame, s.radii1 * roll) + s.normal * (Real(0.5) * s.normal.dot(displacement));
+    return {Vector2<Real>(Real(0.), Real(0.)), half_spin, shift, s.wear1 * (magnitude(roll) + math::abs(half_spin))};
   }
 };
 
@@ -61,22 +71,20 @@ void locate(ContactSearch &search, const ContactScene &scene, ContactState<doubl
   if (!search.is_touching)
     return;
 
-  const WallMotion<double> motion = motion_of(search, scene);
-  const double old_overlap = s.overlap;
-  s.spin += motion.turn_about(s.normal);
   const ContactState<double> before = s;
   const CurvatureBounds<double> bounds = curvature_bounds(pose.shape, scene.parameters.curvature_bound);
-  take_geometry(s, normal, overlap, relative_curvature(frame, principal_radii(pose, normal, g.radii), bounds),
-                scene.law.elastic);
-  s.radius = p.parts.bounding_radius[search.first_part];
-  s.budget = motion_budget(scene.parameters, s.radius, overlap, g.radii.norm());
-  s.point = g.arm - 0.5 * overlap * normal;
+  Vec3 point = g.arm - 0.5 * overlap * normal;
   if (p.has_clumps())
-    s.point += arm_of(p, search.first_part, search.first);
+    point += arm_of(p, search.first_part, search.first);
+  place_contact(s, normal, point, overlap, relative_curvature(frame, principal_radii(pose, normal, g.radii), bounds),
+                scene.law.elastic);
+  s.radii1 = seen_from(s.axis, frame, g.radii) - 0.5 * overlap;
+  give_budget(s, scene.parameters,
+              turn_wear(radii_change(pose, normal, g.arm), g.radii, scene.parameters.overlap_tolerance * overlap), 0.);
   s.weight = p.weight[search.first];
   s.reduced_mass = p.mass[search.first]; // the wall is infinitely heavy
-  losses.curvature += curvature_work(before, s, old_overlap);
-  const Vec3 force = advance_contact(s, scene.law, old_overlap, motion.displacement(s.point), scene.time_step, losses);
+  take_search(s, before, motion_of(search, scene), scene, losses);
+  const Vec3 force = s.force();
   search.resultant = {force, s.point.cross(force), Vec3::Zero()};
 }
 
@@ -119,7 +127,7 @@ void GrainPlane::search(const std::span<ContactSearch> searches, const SearchCon
 
 ContactLosses GrainPlane::end(const ContactSearch &search, const State &state, const ContactScene &scene)
 {
-  return separate(state, state.normal, motion_of(search, scene).displacement(state.point));
+  return end_of(state, motion_of(search, scene));
 }
 
 void GrainPlane::refresh(Store &store, const Particles &)
@@ -129,7 +137,7 @@ void GrainPlane::refresh(Store &store, const Particles &)
 
 TouchingContact GrainPlane::view(const ContactSearch &place, const State &state, const Particles &)
 {
-  return {place.first, no_grain, state, state.point, own_image, place.second};
+  return {place.first, no_grain, view_of(state), state.point, own_image, place.second};
 }
 
 } // namespace bergamo::dem

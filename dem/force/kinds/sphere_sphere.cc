@@ -83,7 +83,7 @@ void SphereSphere::search(const std::span<ContactSearch> searches, const SearchC
 ContactLosses SphereSphere::end(const ContactSearch &search, const State &state, const ContactScene &scene)
 {
   const SphereGeometry<double> g = geometry_of(scene.particles, search);
-  return separate(state, g.normal, motion_of_pair(search, scene).displacement(g.point));
+  return separate(state, motion_of_spheres(g, state, motion_of_pair(search, scene)));
 }
 
 void SphereSphere::exchange_bodies(State &s)
@@ -108,15 +108,16 @@ void SphereSphere::refresh(Store &store, const Particles &p)
 TouchingContact SphereSphere::view(const ContactSearch &place, const State &sphere, const Particles &particles)
 {
   const SphereGeometry<double> g = geometry_of(particles, place);
-  ContactState<double> s = ContactState<double>::begin();
+  ContactView s;
   s.normal = g.normal;
-  s.point = g.point;
   s.major_axis = tangent_frame(g.normal).col(0);
+  s.point = g.point;
   s.forces = sphere.forces;
   s.overlap = sphere.overlap();
   s.stiffness = {sphere.normal_stiffness, sphere.tangential_stiffness, sphere.tangential_stiffness};
   s.reduced_mass = sphere.reduced_mass;
   s.weight = sphere.weight;
+  s.energy = stored_energy(sphere);
   return {place.first, place.second, s, particles.branch(place.first, place.second, place.image), place.image};
 }
 
