@@ -135,14 +135,10 @@ double CellLoading::progress(const Simulation &simulation) const
     return std::clamp(-simulation.cell_stress().mean() / s.pressure, 0., 0.99);
   const int leg = static_cast<int>(now.leg);
   const double from = leg == 0 ? 0. : end_of_leg(s, leg - 1), to = end_of_leg(s, leg);
-  double whole = 0., done = std::abs(strain(simulation)[2] - from);
-  for (int k = 0; k < n_legs(s); ++k)
-  {
-    const double length = std::abs(end_of_leg(s, k) - (k == 0 ? 0. : end_of_leg(s, k - 1)));
-    whole += length;
-    done += k < leg ? length : 0.;
-  }
-  return to == from ? 0. : std::clamp(done / whole, 0., 0.99);
+  double done = std::abs(strain(simulation)[2] - from);
+  for (int k = 0; k < leg; ++k)
+    done += std::abs(end_of_leg(s, k) - (k == 0 ? 0. : end_of_leg(s, k - 1)));
+  return to == from ? 0. : std::clamp(done / strain_path(s), 0., 0.99);
 }
 
 } // namespace bergamo::dem

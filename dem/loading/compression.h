@@ -47,6 +47,13 @@ public:
   double n_checks_passed = 0.; ///< in a row
   double unbalance = 1.;       ///< of the last check, see unbalanced_force()
 
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    visit("n_checks_passed", self.n_checks_passed);
+    visit("unbalance", self.unbalance);
+  }
+
 private:
   static constexpr double checks_needed = 5.;
 

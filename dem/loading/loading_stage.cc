@@ -41,6 +41,14 @@ double end_of_leg(const LoadingStage &stage, const int leg)
   return leg % 2 == 0 ? stage.axial_strain : -stage.axial_strain;
 }
 
+double strain_path(const LoadingStage &stage)
+{
+  double path = 0.;
+  for (int leg = 0; leg < n_legs(stage); ++leg)
+    path += std::abs(end_of_leg(stage, leg) - (leg == 0 ? 0. : end_of_leg(stage, leg - 1)));
+  return path;
+}
+
 std::array<AxisControl, 3> controls_of(const LoadingStage &stage, const Vec3 &mean_stress, const double axial_rate)
 {
   const auto axial = AxisControl::of_rate(axial_rate);

@@ -48,6 +48,9 @@ double end_of_leg(const LoadingStage &stage, int leg);
 /// Legs of the axial strain, each in one direction.
 int n_legs(const LoadingStage &stage);
 
+/// Length of the way that the axial strain goes over all legs.
+double strain_path(const LoadingStage &stage);
+
 /// What each axis is held to. @param mean_stress principal stresses, tension positive [Pa]
 /// @param axial_rate of L_z over L_z, with its sign [1/s]
 std::array<AxisControl, 3> controls_of(const LoadingStage &stage, const Vec3 &mean_stress, double axial_rate);

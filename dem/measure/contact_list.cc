@@ -1,5 +1,7 @@
 #include "dem/measure/contact_list.h"
 
+#include "dem/core/error.h"
+
 #include <algorithm>
 
 namespace bergamo::dem
@@ -28,6 +30,17 @@ double largest_relative_overlap(const Contacts &contacts, const Particles &parti
 {
   return std::max(largest_relative_overlap(contacts.touching(particles), particles),
                   largest_relative_overlap(contacts.touching_walls(particles), particles));
+}
+
+void check_overlap(const double relative_overlap, const double time, const std::string &remedy)
+{
+  constexpr double largest = 0.2;
+  if (relative_overlap <= largest)
+    return;
+  std::ostringstream message;
+  message << "the run diverged: grains overlap by " << relative_overlap << " of their radius at time " << time
+          << " s; choose " << remedy;
+  throw RunError(message.str());
 }
 
 } // namespace bergamo::dem

@@ -1,5 +1,7 @@
 #include "dem/motion/stable_step.h"
 
+#include "dem/geometry/superquadric.h"
+
 #include <cmath>
 #include <limits>
 
@@ -153,6 +155,14 @@ double stable_time_step(const Particles &particles, const std::span<const Touchi
     step = (std::sqrt(damped * damped + 4. * stiff) - damped) / stiff;
   }
   return step;
+}
+
+double stable_step_of_two_spheres(const double radius, const Material &material, const double relative_overlap)
+{
+  const double mass = material.density * volume(Superquadric{Vec3::Constant(radius), 1., 1.});
+  const double modulus = 0.5 * material.young_modulus / (1. - std::pow(material.poisson_ratio, 2));
+  const double stiffness = 2. * modulus * std::sqrt(0.5 * radius * relative_overlap * radius); // Hertz
+  return 2. * std::sqrt(0.5 * mass / stiffness);
 }
 
 } // namespace bergamo::dem

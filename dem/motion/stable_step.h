@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/force/touching_contact.h"
+#include "dem/state/material.h"
 #include "dem/state/particles.h"
 
 #include <span>
@@ -16,5 +17,10 @@ namespace bergamo::dem
 /// @param guess a time step near the answer [s]
 double stable_time_step(const Particles &particles, std::span<const TouchingContact> contacts,
                         std::span<const ContactLaw> laws, double guess);
+
+/// That of two equal spheres which oscillate along the line of their centres about an overlap, undamped [s]: what else
+/// moves in a packing, and what is pressed together more, is stiffer.
+/// @param radius [m]; @param relative_overlap of the contact over the radius
+double stable_step_of_two_spheres(double radius, const Material &material, double relative_overlap);
 
 } // namespace bergamo::dem

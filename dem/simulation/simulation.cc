@@ -6,10 +6,10 @@
 #include "dem/motion/leapfrog.h"
 #include "dem/motion/stable_step.h"
 #include "dem/neighbour/spatial_order.h"
+#include "dem/neighbour/verlet_distance.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace bergamo::dem
@@ -72,12 +72,9 @@ void Simulation::change(const SimulationParameters &parameters)
   renew_neighbours();
 }
 
-/// Verlet distance over the mean bounding radius, summed by size, so that it does not depend on the grains' order.
 void Simulation::set_range()
 {
-  std::vector<double> radii = particles.parts.bounding_radius;
-  std::sort(radii.begin(), radii.end());
-  watch.verlet_distance = p.verlet_distance * std::accumulate(radii.begin(), radii.end(), 0.) / radii.size();
+  watch.verlet_distance = verlet_distance_of(particles, p.verlet_distance);
 }
 
 void Simulation::check_cell() const

@@ -67,7 +67,7 @@ int Ensemble::go()
     throw RunError("some samples failed; the others are kept, and --restart tries these again:" + failures);
   if (std::any_of(jobs.begin(), jobs.end(), [](const auto &job) { return !job->is_finished; }))
     return run.stop();
-  return run.finish(summary(), {{"rve_triaxial/plot.py", {run.folder().path().string()}}});
+  return run.finish(summary(), {"rve_triaxial/plot.py"});
 }
 
 void Ensemble::run_sample(Sample &sample)

@@ -1,13 +1,11 @@
 #include "drivers/rve_triaxial/parameters.h"
 
 #include "dem/core/error.h"
-#include "dem/neighbour/neighbour_watch.h"
+#include "dem/loading/cell_room.h"
 #include "dem/packing/random_stream.h"
 #include "drivers/common/grain_parameters.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace bergamo::driver
@@ -62,17 +60,15 @@ void RveParameters::declare(ParameterFile &file)
 
 void RveParameters::validate() const
 {
-  const auto fail = [](const std::string &text) { throw ConfigError(text); };
   simulation.validate();
   dem::PackingParameters packing;
   packing.solid_fraction = packing_solid_fraction;
   sizes.validate(packing);
   if (edges.empty() || generation_frictions.empty() || confining_pressures.empty())
-    fail("Ensemble: the lists of edges, generation frictions and confining pressures need one value each at least");
+    reject("Ensemble: the lists of edges, generation frictions and confining pressures need one value each at least");
   for (std::size_t k = 0; k + 1 < max_stages; ++k)
     if (!stages[k].is_used() && stages[k + 1].is_used())
-      fail("Stage " + std::to_string(k + 1) + "/path is none, but stage " + std::to_string(k + 2) +
-           " is not: stages follow one another without a gap");
+      reject("Stage ", k + 1, "/path is none, but stage ", k + 2, " is not: stages follow one another without a gap");
   for (const SampleSettings &sample : samples())
   {
     for (const dem::LoadingStage &stage : program(sample))
@@ -81,21 +77,14 @@ void RveParameters::validate() const
   }
 }
 
-/// The cell must stay two ranges of contacts wide when the packing is as dense as packings get.
 void RveParameters::require_room(const SampleSettings &sample) const
 {
-  constexpr double densest = 0.74;
   const dem::Particles grains = sizes.draw(packing_solid_fraction * std::pow(sample.edge, 3), sample.seed);
-  const std::vector<double> &radii = grains.parts.bounding_radius;
-  const double mean = std::accumulate(radii.begin(), radii.end(), 0.) / static_cast<double>(radii.size());
-  const double shrinking = std::cbrt(std::min(1., packing_solid_fraction / densest));
-  const double least = dem::least_cell_edge(grains, simulation.verlet_distance * mean) / shrinking;
-  if (sample.edge < least)
-    throw ConfigError("Ensemble/edges: a cell of " + std::to_string(sample.edge) +
-                      " m is too small for its grains, which would touch one another twice; it needs " +
-                      std::to_string(least) + " m at least: make it larger or the grains smaller");
-  const double largest = *std::max_element(grains.bounding_radius.begin(), grains.bounding_radius.end());
-  dem::PackingSpace::periodic({Vec3::Zero(), Vec3::Constant(sample.edge)}).require_range(2. * largest);
+  const double least = dem::least_uncompressed_edge(grains, packing_solid_fraction, simulation.verlet_distance);
+  if (sample.edge <= least)
+    reject("Ensemble/edges: a cell of ", sample.edge,
+           " m is too small for its grains, which would touch one another twice; it needs more than ", least,
+           " m: make it larger or the grains smaller");
 }
 
 std::vector<SampleSettings> RveParameters::samples() const

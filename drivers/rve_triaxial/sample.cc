@@ -5,6 +5,7 @@
 #include "dem/measure/contact_distributions.h"
 #include "dem/measure/contact_list.h"
 #include "dem/measure/solid_fraction.h"
+#include "drivers/common/run/measured_columns.h"
 #include "drivers/common/run/visit_models.h"
 
 #include <algorithm>
@@ -51,7 +52,9 @@ bool SampleRun::run()
     begin();
   const auto opened = [&](const char *name, const std::vector<std::string> &columns)
   { return goes_on ? History::continued(folder / name, columns, loop.last_time()) : History(folder / name, columns); };
-  const Table table = now.table();
+  Table table{{{"time_s", [&] { return now.time; }}, {"stage", [&] { return static_cast<double>(stage); }}}};
+  table.add(columns_of(now));
+  table.add({{"energy_residual_J", [&] { return residual.present(); }}});
   History history = opened("history.csv", table.names());
   History distributions = opened("distributions.csv", distribution_columns());
   const auto n_stages = static_cast<std::int64_t>(program.size());
@@ -67,10 +70,7 @@ bool SampleRun::run()
   {
     measure();
     history.append(table.row());
-    if (now.overlap > 0.2)
-      throw RunError("the run diverged: grains overlap by " + std::to_string(now.overlap) +
-                     " of their radius at time " + std::to_string(now.time) +
-                     " s; choose a smaller time step or a smaller inertial number");
+    dem::check_overlap(now.largest_overlap, now.time, "a smaller time step or a smaller inertial number");
     next_row = simulation->n_steps + steps_to_next_row();
   };
   const auto add_distribution = [&]
@@ -118,9 +118,7 @@ void SampleRun::begin()
 
 void SampleRun::make_loading()
 {
-  grain = dem::mean_grain(simulation->particles);
-  solid_volume = dem::solid_volume(simulation->particles);
-  loading.emplace(program.at(stage), grain, parameters.simulation.grain().density);
+  loading.emplace(program.at(stage), dem::mean_grain(simulation->particles), parameters.simulation.grain().density);
 }
 
 void SampleRun::begin_stage()
@@ -133,7 +131,7 @@ void SampleRun::begin_stage()
 void SampleRun::end_stage()
 {
   simulation->integrate();
-  const double fraction = solid_volume / simulation->particles.cell.volume();
+  const double fraction = dem::solid_fraction(simulation->particles, simulation->particles.cell.volume());
   const std::size_t n_done = static_cast<std::size_t>(stage) + 1;
   if (stage == 0)
     f.generated_solid_fraction = fraction;
@@ -155,10 +153,7 @@ std::int64_t SampleRun::steps_to_next_row() const
   const dem::LoadingStage &s = loading->stage();
   if (!s.is_strained())
     return parameters.row_interval;
-  double whole = 0.;
-  for (int leg = 0; leg < dem::n_legs(s); ++leg)
-    whole += std::abs(dem::end_of_leg(s, leg) - (leg == 0 ? 0. : dem::end_of_leg(s, leg - 1)));
-  const double regular = whole / parameters.n_rows, here = std::abs(loading->strain(*simulation)[2]);
+  const double regular = dem::strain_path(s) / parameters.n_rows, here = std::abs(loading->strain(*simulation)[2]);
   const double spacing = loading->state().leg > 0. ? regular
                          : here < 1e-3             ? std::min(regular, 2e-5)
                          : here < 1e-2             ? std::min(regular, 2e-4)
@@ -177,29 +172,13 @@ std::int64_t SampleRun::steps_to_next_distribution() const
 
 void SampleRun::measure()
 {
-  const dem::Simulation &s = *simulation;
-  s.check_finite();
-  const std::vector<dem::TouchingContact> contacts = s.contacts.touching(s.particles);
-  const double volume = s.particles.cell.volume();
-  const Vec3 rates = s.particles.cell.rate.cwiseQuotient(s.particles.cell.edges);
-  now.time = s.time;
-  now.stage = static_cast<double>(stage);
-  now.strain = loading->strain(s);
-  now.solid_fraction = solid_volume / volume;
-  now.assembly = dem::measure_assembly(s.particles, contacts, {}, s.parameters().between_grains().friction, volume);
-  now.rattler_fraction = static_cast<double>(now.assembly.coordination.n_rattlers) / f.n_particles;
-  now.inertial_number = dem::inertial_number(grain, rates.cwiseAbs().maxCoeff(), dem::pressure(now.assembly.stress));
-  now.overlap = dem::largest_relative_overlap(contacts, s.particles);
-  now.energy = s.energy();
-  if (s.n_steps == 0)
-    first_balance = now.energy.balance();
-  now.residual = now.energy.balance() - first_balance;
-
+  now = dem::measure_cell(*simulation, *loading);
+  residual.add(now.energy.balance(), now.energy.cell_work);
   const double work = std::abs(now.energy.cell_work);
   const Mat3 &stress = now.assembly.stress;
-  f.largest_overlap = std::max(f.largest_overlap, now.overlap);
+  f.largest_overlap = std::max(f.largest_overlap, now.largest_overlap);
   if (work > 0.)
-    f.energy_residual = std::max(f.energy_residual, std::abs(now.residual) / std::max(work, now.energy.stored()));
+    f.energy_residual = std::max(f.energy_residual, std::abs(residual.present()) / std::max(work, now.energy.stored()));
   f.final_solid_fraction = now.solid_fraction;
   f.final_stress_ratio = 2. * stress(2, 2) / (stress(0, 0) + stress(1, 1));
   if (!std::isfinite(f.final_stress_ratio))
@@ -224,7 +203,7 @@ void SampleRun::visit(StateVisitor &visit)
   visit("stage", stage);
   visit("next_row", next_row);
   visit("next_distribution", next_distribution);
-  visit("first_balance", first_balance);
+  residual.visit(visit);
   auto read = visit_grains(visit, simulation.get(), parameters.simulation);
   dem::CellLoading::State state = loading ? loading->state() : dem::CellLoading::State();
   visit("loading", state);

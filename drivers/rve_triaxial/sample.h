@@ -1,9 +1,10 @@
 #pragma once
 
+#include "dem/loading/cell_measures.h"
 #include "drivers/common/history.h"
+#include "drivers/common/run/energy_residual.h"
 #include "drivers/common/run/job_pool.h"
 #include "drivers/common/run/run_loop.h"
-#include "drivers/rve_triaxial/cell_sample.h"
 #include "drivers/rve_triaxial/parameters.h"
 #include "drivers/rve_triaxial/sample_figures.h"
 
@@ -47,14 +48,12 @@ private:
   Snapshot snapshot;
   RunLoop loop;
 
-  dem::MeanGrain grain;
-  double solid_volume = 0.; ///< [m^3]
   std::unique_ptr<dem::Simulation> simulation;
   std::optional<dem::CellLoading> loading;
   std::int64_t stage = 0;                           ///< under way
   std::int64_t next_row = 0, next_distribution = 0; ///< steps
-  double first_balance = 0.;                        ///< of the energy [J]
-  CellSample now;                                   ///< the last one
+  dem::CellMeasures now;                            ///< of the last row
+  EnergyResidual residual;
   SampleFigures f;
   double clock = wall_clock(); ///< up to which f.wall_time counts [s]
 };

@@ -1,13 +1,11 @@
 #include "dem/core/error.h"
 #include "drivers/common/driver_main.h"
-#include "drivers/common/parameter_file.h"
-#include "drivers/common/run/picture_series.h"
+#include "drivers/common/run/energy_residual.h"
+#include "drivers/common/run/model_pictures.h"
 #include "drivers/common/run/run.h"
 #include "drivers/common/run/visit_models.h"
 #include "drivers/strip_footing/footing_model.h"
-#include "fe_dealii/output.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace
@@ -23,7 +21,7 @@ class FootingRun
 {
 public:
   FootingRun(const FootingParameters &p, const CommandLine &command_line, const std::string &parameter_text)
-      : parameters(p), run(command_line, {"strip footing", parameter_text, p.snapshot_interval}), model(p),
+      : parameters(p), run(command_line, {"strip footing", parameter_text, p.output.snapshot_interval}), model(p),
         pictures(run.folder().path())
   {
     run.keep([this](StateVisitor &v) { visit(v); });
@@ -41,8 +39,8 @@ private:
   Run run;
   FootingModel model;
   PictureSeries pictures;
-  fe::BodyEnergy energy;                 // of the last sample
-  double largest_residual = 0;           // of the energy balance [J]
+  fe::BodyEnergy energy; // of the last sample
+  EnergyResidual residual;
   double bearing_sum = 0, n_bearing = 0; // of the pressures over the last part of the settlement [Pa]
   const Table table{{{"time_s", [&] { return time(); }},
                      {"settlement_m", [&] { return parameters.settlement_at(time()); }},
@@ -54,12 +52,12 @@ private:
                      {"energy_footing_work_J", [&] { return energy.boundary_work; }},
                      {"energy_gravity_work_J", [&] { return energy.gravity_work; }},
                      {"energy_surcharge_work_J", [&] { return energy.external_work; }},
-                     {"energy_residual_J", [&] { return energy.residual(); }}}};
+                     {"energy_residual_J", [&] { return residual.present(); }}}};
 };
 
 void FootingRun::visit(StateVisitor &visit)
 {
-  visit("largest_residual", largest_residual);
+  residual.visit(visit);
   visit("bearing_sum", bearing_sum);
   visit("n_bearing", n_bearing);
   pictures.visit(visit);
@@ -84,13 +82,11 @@ int FootingRun::go()
     bearing_sum += model.footing_pressure();
     n_bearing += 1;
   };
-  const auto write_mesh = [&](const std::filesystem::path &path) { fe::write_vtu(model.body(), path); };
-  const auto add_picture = [&] { pictures.add(time(), {{"continuum", write_mesh}}); };
-  const bool is_done = run.advance(stage, {{evenly(parameters.n_samples, n_steps), [&] { sample(history); }},
+  const auto add_picture = [&] { pictures.add(time(), pictures_of(nullptr, &model.body())); };
+  const bool is_done = run.advance(stage, {{evenly(parameters.output.n_samples, n_steps), [&] { sample(history); }},
                                            {is_at_the_limit, add_bearing},
-                                           {evenly(parameters.n_pictures - 1, n_steps), add_picture}});
-  const std::string path = run.folder().path().string();
-  return is_done ? run.finish(summary(), {{"strip_footing/plot.py", {path}}, {"energy.py", {path}}}) : run.stop();
+                                           {evenly(parameters.output.n_pictures - 1, n_steps), add_picture}});
+  return is_done ? run.finish(summary(), {"strip_footing/plot.py", "energy.py"}) : run.stop();
 }
 
 void FootingRun::sample(History &history)
@@ -99,7 +95,7 @@ void FootingRun::sample(History &history)
     throw RunError("the run diverged: the ground is not finite at time " + std::to_string(time()) +
                    " s; choose a smaller Output/step share");
   energy = model.body().energy();
-  largest_residual = std::max(largest_residual, std::abs(energy.residual()));
+  residual.add(energy.residual(), energy.boundary_work);
   history.append(table.row());
 }
 
@@ -110,7 +106,7 @@ Summary FootingRun::summary() const
   figures.steps = run.loop().step();
   figures.time_step_s = model.time_step();
   figures.stable_time_step_s = model.stable_time_step();
-  figures.energy_residual = largest_residual / std::max(std::abs(energy.boundary_work), 1e-300);
+  figures.energy_residual = residual.relative();
   const double updates = static_cast<double>(model.body().n_elements()) * run.loop().steps_here();
   Summary summary;
   summary.set("model", std::string("continuum"));

@@ -15,6 +15,7 @@ FootingParameters::FootingParameters()
   continuum.dilation_angle = 0;
   continuum.cohesion = 10e3;
   continuum.density = 1800;
+  output.n_pictures = 2;
 }
 
 void FootingParameters::declare(ParameterFile &file)
@@ -43,11 +44,7 @@ void FootingParameters::declare(ParameterFile &file)
   file.add("Continuum", "damping", damping, "mass-proportional [1/s]", Range::non_negative());
 
   file.add("Output", "step share", step_share, "of the stable time step", Range::strictly_between(0, 1));
-  file.add("Output", "samples", n_samples, "rows of history.csv", Range::between(1, 1000000));
-  file.add("Output", "pictures", n_pictures, "times at which the mesh is written for ParaView",
-           Range::between(1, 10000));
-  file.add("Output", "snapshot interval", snapshot_interval, "wall clock time between snapshots [s]",
-           Range::positive());
+  output.declare(file, "the mesh is");
 }
 
 void FootingParameters::validate() const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 
@@ -29,9 +30,7 @@ struct FootingParameters
   double damping = 5; ///< mass-proportional [1/s]
 
   double step_share = 0.9; ///< of the stable time step
-  unsigned int n_samples = 200;
-  unsigned int n_pictures = 2;
-  double snapshot_interval = 30; ///< wall clock [s]
+  OutputParameters output;
 
   /// Binds every parameter to its name in the parameter file.
   void declare(ParameterFile &file);

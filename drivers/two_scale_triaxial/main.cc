@@ -1,4 +1,6 @@
 #include "drivers/common/driver_main.h"
+#include "drivers/common/run/energy_residual.h"
+#include "drivers/common/run/model_pictures.h"
 #include "drivers/common/run/stable_step_watch.h"
 #include "drivers/two_scale_triaxial/specimen.h"
 
@@ -16,7 +18,7 @@ class TriaxialRun
 {
 public:
   TriaxialRun(const TriaxialParameters &p, const CommandLine &command_line, const std::string &parameter_text)
-      : parameters(p), run(command_line, {"two-scale triaxial test", parameter_text, p.snapshot_interval}),
+      : parameters(p), run(command_line, {"two-scale triaxial test", parameter_text, p.output.snapshot_interval}),
         pictures(run.folder().path())
   {
     if (run.keep([this](StateVisitor &v) { visit(v); }))
@@ -46,7 +48,8 @@ private:
   PictureSeries pictures;
   StableStepWatch stable_step{"Loading/time step"};
   SpecimenSample now; // the last one
-  SpecimenExtremes extremes;
+  EnergyResidual residual;
+  double largest_overlap = 0.; // over the smaller radius
   const Table table = now.table();
 };
 
@@ -55,8 +58,7 @@ int TriaxialRun::go()
   run.open();
   if ((packing && !pack()) || !load())
     return run.stop();
-  const std::string path = run.folder().path().string();
-  return run.finish(summary(), {{"two_scale_triaxial/plot.py", {path}}, {"energy.py", {path}}, {"picture.py", {path}}});
+  return run.finish(summary(), {"two_scale_triaxial/plot.py", "energy.py", "picture.py"});
 }
 
 void TriaxialRun::visit(StateVisitor &visit)
@@ -67,7 +69,8 @@ void TriaxialRun::visit(StateVisitor &visit)
   visit_loading(visit, specimen, start, parameters);
   pictures.visit(visit);
   stable_step.visit(visit);
-  extremes.visit(visit);
+  residual.visit(visit);
+  visit("largest_overlap", largest_overlap);
 }
 
 bool TriaxialRun::pack()
@@ -93,22 +96,19 @@ bool TriaxialRun::load()
   const auto sample = [&]
   {
     now = specimen->measure(time());
-    extremes.add(now);
+    now.residual = residual.add(now.energy.balance(), now.energy.wall_work);
+    largest_overlap = std::max(largest_overlap, now.largest_overlap);
     history.append(table.row());
   };
   const auto look_at_step = [&] { stable_step.look(dt, specimen->model.stable_steps().combined(), run.progress()); };
-  const auto draw = [&] { pictures.add(time(), specimen->pictures()); };
+  const auto draw = [&] { pictures.add(time(), pictures_of(specimen->model.grains(), specimen->model.body())); };
   Stage stage = run.even_stage("loading", n_steps, dt);
   stage.n_particles = specimen->n_grains();
-  stage.compute = [&]
-  {
-    const double t = stage.time();
-    specimen->compute(program.strain(t), program.strain(t + dt));
-  };
+  stage.compute = [&] { specimen->compute(program.strain(stage.time()), program.strain(stage.time() + dt)); };
   stage.move = [&] { specimen->move(); };
-  return run.advance(stage, {{evenly(parameters.n_samples, n_steps), sample},
+  return run.advance(stage, {{evenly(parameters.output.n_samples, n_steps), sample},
                              {every_steps(std::max<std::int64_t>(1, n_steps / 10)), look_at_step},
-                             {evenly(parameters.n_pictures - 1, n_steps), draw}});
+                             {evenly(parameters.output.n_pictures - 1, n_steps), draw}});
 }
 
 Summary TriaxialRun::summary() const
@@ -117,9 +117,9 @@ Summary TriaxialRun::summary() const
   figures.steps = packing_steps + run.loop().step();
   figures.time_step_s = parameters.simulation.time_step;
   figures.stable_time_step_s = stable_step.smallest();
-  figures.energy_residual = extremes.energy_residual();
+  figures.energy_residual = residual.relative();
   figures.undecided_contacts = specimen->n_undecided();
-  figures.max_overlap_over_radius = extremes.largest_overlap;
+  figures.max_overlap_over_radius = largest_overlap;
   const Vec3 edges = specimen->reference_edges();
   Summary summary;
   summary.set("model", std::string(parameters.model_name()));

@@ -4,6 +4,7 @@
 #include "dem/measure/solid_fraction.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
+#include "dem/state/positions_by_id.h"
 #include "drivers/common/run/visit_models.h"
 
 #include <algorithm>
@@ -32,8 +33,7 @@ void visit_packing(StateVisitor &visit, std::optional<PackingStage> &packing, co
   auto grains = visit_grains(visit, packing ? packing->grains.get() : nullptr, parameters.packing_simulation());
   if (visit.is_reading())
     packing.emplace(PackingStage{std::move(grains), dem::Compression(parameters.compression)});
-  visit("compression/n_checks_passed", packing->compression.n_checks_passed);
-  visit("compression/unbalance", packing->compression.unbalance);
+  visit("compression", packing->compression);
 }
 
 Stage stage_of(PackingStage &packing, const double aim)
@@ -61,9 +61,7 @@ LoadingStart end_packing(dem::Simulation &grains, const dem::SimulationParameter
     wall.velocity.setZero();
   grains.rest();
   grains.change(loading);
-  start.reference_by_id.resize(grains.particles.size());
-  for (std::size_t i = 0; i < grains.particles.size(); ++i)
-    start.reference_by_id[grains.particles.id[i]] = grains.particles.position[i];
+  start.reference_by_id = dem::positions_by_id(grains.particles);
   return start;
 }
 

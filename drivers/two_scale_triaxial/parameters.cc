@@ -1,12 +1,14 @@
 #include "drivers/two_scale_triaxial/parameters.h"
 
 #include "dem/core/error.h"
+#include "dem/motion/stable_step.h"
 #include "drivers/common/continuum_parameters.h"
+#include "drivers/common/coupling_parameters.h"
 #include "drivers/common/grain_parameters.h"
+#include "drivers/common/loading_parameters.h"
 
 #include <cmath>
-#include <numbers>
-#include <sstream>
+#include <utility>
 
 namespace bergamo::driver
 {
@@ -42,14 +44,7 @@ void TriaxialParameters::declare(ParameterFile &file)
            {.lowest = 0, .highest = 1, .lowest_included = false});
   file.add("Packing", "friction", packing_friction, "between grains during the compression: less gives denser packings",
            Range::non_negative());
-  file.add("Packing", "pressure", compression.pressure, "isotropic pressure of the packing [Pa]", Range::positive());
-  file.add("Packing", "largest strain rate", compression.largest_rate, "of the walls [1/s]",
-           {.lowest = 0, .highest = 1000, .lowest_included = false});
-  file.add("Packing", "pressure tolerance", compression.pressure_tolerance, "relative", Range::strictly_between(0, 1));
-  file.add("Packing", "force tolerance", compression.force_tolerance, "mean unbalanced over mean contact force",
-           Range::strictly_between(0, 1));
-  file.add("Packing", "longest time", compression.longest_time, "simulated, then the compression has failed [s]",
-           Range::positive());
+  declare_compression(file, compression);
   file.add("Packing", "time step", packing_time_step, "during the compression [s]", Range::positive());
   file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance",
            Range::between(0, 0.1));
@@ -57,31 +52,12 @@ void TriaxialParameters::declare(ParameterFile &file)
   declare_continuum(file, continuum);
   file.add("Continuum", "damping", continuum_damping, "mass-proportional [1/s]", Range::non_negative());
 
-  file.add("Coupling", "penalty", coupling.penalty, "epsilon [Pa/m2]", Range::positive());
-  file.add("Coupling", "projection", coupling.projection, "of the grains' displacements",
-           {{"lumped", coupling::Projection::lumped}, {"consistent", coupling::Projection::consistent}});
-  file.add("Coupling", "least weight", coupling.least_weight, "lower bound of the grains' weights in the overlap",
-           {.lowest = 0, .highest = 1, .lowest_included = false});
+  declare_coupling(file, coupling);
 
-  file.add("Loading", "isotropic volumetric strain", program.isotropic_volumetric_strain, "compression is negative");
-  file.add("Loading", "isotropic time", program.isotropic_time, "[s]", Range::positive());
-  file.add("Loading", "path", program.path, "of the shear phase",
-           {{"unloading", dem::StrainPath::unloading},
-            {"constant volume", dem::StrainPath::constant_volume},
-            {"compression", dem::StrainPath::compression}});
-  file.add("Loading", "axial strain", program.axial_strain, "along z in the shear phase");
-  file.add("Loading", "volumetric strain change", program.volumetric_strain_change,
-           "size of the change in the shear phase; without meaning at constant volume", Range::non_negative());
-  file.add("Loading", "shear time", program.shear_time, "[s]", Range::positive());
-  file.add("Loading", "ramp", program.ramp, "share of a phase in which it speeds up, and again slows down",
-           {.lowest = 0, .highest = 0.5, .lowest_included = false});
+  declare_strain_program(file, program);
   file.add("Loading", "time step", simulation.time_step, "[s]", Range::positive());
 
-  file.add("Output", "samples", n_samples, "rows of history.csv", Range::between(1, 1000000));
-  file.add("Output", "pictures", n_pictures, "times at which grains and mesh are written for ParaView",
-           Range::between(1, 10000));
-  file.add("Output", "snapshot interval", snapshot_interval, "wall clock time between snapshots [s]",
-           Range::positive());
+  output.declare(file, "grains and mesh are");
 }
 
 void TriaxialParameters::validate() const
@@ -91,50 +67,35 @@ void TriaxialParameters::validate() const
   packing_simulation().validate();
   compression.validate();
   program.validate();
-  const auto fail = [](const std::string &text) { throw ConfigError(text); };
-
   if (kind == ModelKind::two_scale)
   {
     if (continuum_layers >= elements_per_edge)
-      fail("Model/continuum layers is " + std::to_string(continuum_layers) + " of " +
-           std::to_string(elements_per_edge) +
-           " layers (Model/elements per edge): at least one layer must be left to the grains alone");
+      reject("Model/continuum layers is ", continuum_layers, " of ", elements_per_edge,
+             " layers (Model/elements per edge): at least one layer must be left to the grains alone");
     if (overlap_layers >= continuum_layers)
-      fail("Model/overlap layers is " + std::to_string(overlap_layers) + ", as thick as the continuum of " +
-           std::to_string(continuum_layers) +
-           " layers or thicker: at least one layer must be left to the continuum alone");
+      reject("Model/overlap layers is ", overlap_layers, ", as thick as the continuum of ", continuum_layers,
+             " layers or thicker: at least one layer must be left to the continuum alone");
     if (element_size() < 2. * distribution.mean_half_axes.mean())
-      fail("the elements are smaller than a grain: edge over elements per edge is " + std::to_string(element_size()) +
-           " m; choose fewer Model/elements per edge or a larger Model/edge");
+      reject("the elements are smaller than a grain: edge over elements per edge is ", element_size(),
+             " m; choose fewer Model/elements per edge or a larger Model/edge");
   }
   if (has_continuum())
     continuum.validate();
-  if (has_grains())
-  {
-    if (2. * distribution.largest_half_axis * std::sqrt(3.) > edge)
-      fail("Model/edge is " + std::to_string(edge) + " m: the largest grains do not fit; it must exceed " +
-           std::to_string(2. * distribution.largest_half_axis * std::sqrt(3.)) + " m");
-    if (initial_solid_fraction > 0.3)
-      fail("Packing/initial solid fraction is " + std::to_string(initial_solid_fraction) +
+  if (!has_grains())
+    return;
+  const double least_edge = 2. * distribution.largest_half_axis * std::sqrt(3.);
+  if (edge < least_edge)
+    reject("Model/edge is ", edge, " m: the largest grains do not fit; it must exceed ", least_edge, " m");
+  if (initial_solid_fraction > 0.3)
+    reject("Packing/initial solid fraction is ", initial_solid_fraction,
            ": grains cannot be placed at random above about 0.3; 0.2 is safe");
-    // Two of the smallest grains as spheres at an overlap of 1e-5 radii: no packing under load is softer.
-    dem::Superquadric smallest{Vec3::Constant(distribution.smallest_half_axis), 1., 1.};
-    const double mass = simulation.grain().density * dem::volume(smallest);
-    const double radius = distribution.smallest_half_axis;
-    const double modulus =
-        0.5 * simulation.grain().young_modulus / (1. - std::pow(simulation.grain().poisson_ratio, 2));
-    const double stiffness = 2. * modulus * std::sqrt(0.5 * radius * 1e-5 * radius);
-    const double limit = 2. * std::sqrt(0.5 * mass / stiffness);
-    for (const auto &[name, step] :
-         {std::pair("Loading/time step", simulation.time_step), std::pair("Packing/time step", packing_time_step)})
-      if (step > limit)
-      {
-        std::ostringstream message;
-        message << name << " is " << step << " s: it must stay below " << limit
-                << " s, the stable step of two of the smallest grains in contact";
-        fail(message.str());
-      }
-  }
+  // At an overlap of 1e-5 radii: no packing under load is softer.
+  const double limit = dem::stable_step_of_two_spheres(distribution.smallest_half_axis, simulation.grain(), 1e-5);
+  for (const auto &[name, step] :
+       {std::pair("Loading/time step", simulation.time_step), std::pair("Packing/time step", packing_time_step)})
+    if (step > limit)
+      reject(name, " is ", step, " s: it must stay below ", limit,
+             " s, the stable step of two of the smallest grains in contact");
 }
 
 dem::SimulationParameters TriaxialParameters::loading_simulation() const

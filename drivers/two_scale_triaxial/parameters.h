@@ -5,6 +5,7 @@
 #include "dem/loading/strain_program.h"
 #include "dem/packing/distribution.h"
 #include "dem/simulation/simulation.h"
+#include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 
@@ -48,9 +49,7 @@ struct TriaxialParameters
   coupling::CouplingParameters coupling;
   dem::StrainProgram program;
 
-  unsigned int n_samples = 200;
-  unsigned int n_pictures = 5;
-  double snapshot_interval = 30.; ///< wall clock [s]
+  OutputParameters output;
 
   /// Binds every parameter to its name in the parameter file.
   void declare(ParameterFile &file);

@@ -1,33 +1,20 @@
 #include "drivers/two_scale_triaxial/specimen.h"
 
 #include "dem/core/error.h"
-#include "dem/io/vtu.h"
 #include "dem/measure/contact_list.h"
 #include "dem/measure/coordination.h"
 #include "drivers/common/run/visit_models.h"
 #include "fe_dealii/mesh/box_mesh.h"
-#include "fe_dealii/output.h"
 #include "fe_dealii/stable_step.h"
 
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace bergamo::driver
 {
 namespace
 {
-
-/// Grains with their weights and the forces that they are left with.
-void write_grains(const dem::Simulation &grains, const std::filesystem::path &path)
-{
-  std::vector<double> force;
-  for (const Vec3 &f : grains.particles.force)
-    force.push_back(f.norm());
-  const dem::GrainField fields[] = {{"weight", grains.particles.weight}, {"resultant_force", force}};
-  dem::write_grains_vtu(grains.particles, fields, path);
-}
 
 /// The continuum's part of the cube: it starts under the packing's pressure, so that the overlap starts in equilibrium.
 std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters, const dem::Box &cube)
@@ -77,28 +64,16 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
   }
   if (is_joined)
     join(start.reference_by_id, edges[2] / parameters.elements_per_edge);
-  if (const dem::Simulation *s = model.grains())
+  if (model.grains())
   {
-    // Joined, the grains' floor is gone and the wall above has moved up in the list.
-    const bool has_floor = s->walls.size() == 6;
-    for (std::size_t face = 0; face < 4; ++face)
-      faces[face].wall = face;
-    if (has_floor)
-      faces[4].wall = 4;
-    faces[5].wall = has_floor ? 5 : 4;
+    std::size_t wall = 0; // joined, the grains' floor is gone and the wall above has moved up in the list
+    for (std::size_t face = 0; face < 6; ++face)
+      if (face != 4 || !is_joined)
+        faces[face].wall = wall++;
   }
-  check_stable_step();
-}
-
-void Specimen::check_stable_step() const
-{
   const double limit = model.body() ? fe::stable_step(*model.body()).time_step : step;
-  if (step <= limit)
-    return;
-  std::ostringstream message;
-  message << "Loading/time step is " << step << " s: it must stay below " << limit
-          << " s, the stable step of the continuum";
-  throw ConfigError(message.str());
+  if (step > limit)
+    reject("Loading/time step is ", step, " s: it must stay below ", limit, " s, the stable step of the continuum");
 }
 
 void Specimen::join(const std::vector<Vec3> &reference_by_id, const double layer)
@@ -132,12 +107,12 @@ void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
 
 SpecimenSample Specimen::measure(const double time) const
 {
-  const auto at = [&] { return " at time " + std::to_string(time) + " s; choose a smaller Loading/time step"; };
   const dem::Simulation *grains = model.grains();
   if (grains)
     grains->check_finite();
   if (model.body() && !model.body()->is_finite())
-    throw RunError("the run diverged: the continuum is not finite" + at());
+    throw RunError("the run diverged: the continuum is not finite at time " + std::to_string(time) +
+                   " s; choose a smaller Loading/time step");
   SpecimenSample sample{.time = time,
                         .stage = parameters.program.stage(time),
                         .strain = strain,
@@ -148,20 +123,8 @@ SpecimenSample Specimen::measure(const double time) const
     return sample;
   sample.coordination_number = dem::mean_coordination(grains->contacts, grains->particles.size());
   sample.largest_overlap = dem::largest_relative_overlap(grains->contacts, grains->particles);
-  if (sample.largest_overlap > 0.2)
-    throw RunError("the run diverged: grains overlap by " + std::to_string(sample.largest_overlap) +
-                   " of their radius" + at() + " or smaller strains");
+  dem::check_overlap(sample.largest_overlap, time, "a smaller Loading/time step or smaller strains");
   return sample;
-}
-
-std::vector<std::pair<std::string, PictureWriter>> Specimen::pictures() const
-{
-  std::vector<std::pair<std::string, PictureWriter>> list;
-  if (const dem::Simulation *grains = model.grains())
-    list.emplace_back("grains", [grains](const auto &path) { write_grains(*grains, path); });
-  if (const fe::ExplicitBody *body = model.body())
-    list.emplace_back("continuum", [body](const auto &path) { fe::write_vtu(*body, path); });
-  return list;
 }
 
 Vec3 Specimen::stress() const

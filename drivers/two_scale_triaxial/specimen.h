@@ -1,7 +1,6 @@
 #pragma once
 
 #include "coupling/adapter/two_scale_model.h"
-#include "drivers/common/run/picture_series.h"
 #include "drivers/two_scale_triaxial/packing_stage.h"
 #include "drivers/two_scale_triaxial/specimen_sample.h"
 
@@ -30,9 +29,6 @@ public:
   /// @throws RunError where the run has diverged, naming the time
   SpecimenSample measure(double time) const;
 
-  /// Files of the models that are there.
-  std::vector<std::pair<std::string, PictureWriter>> pictures() const;
-
   std::int64_t n_grains() const { return model.grains() ? model.grains()->particles.size() : 0; }
   std::int64_t n_undecided() const { return model.grains() ? model.grains()->contacts.n_undecided() : 0; }
   Vec3 reference_edges() const { return edges; } ///< [m]
@@ -47,7 +43,6 @@ private:
   };
 
   void join(const std::vector<Vec3> &reference_by_id, double layer);
-  void check_stable_step() const;
   Vec3 stress() const;
 
   const TriaxialParameters &parameters;

@@ -1,4 +1,6 @@
 #include "dem/core/error.h"
+#include "dem/geometry/rigid_clump.h"
+#include "dem/loading/cell_room.h"
 #include "dem/loading/loading_stage.h"
 #include "dem/motion/cell_control.h"
 
@@ -91,11 +93,13 @@ TEST_CASE("legs of a cyclic stage lead to both sides and back to zero")
   stage.axial_strain = -0.01;
   CHECK(n_legs(stage) == 1);
   CHECK(end_of_leg(stage, 0) == -0.01);
+  CHECK(strain_path(stage) == Approx(0.01));
   stage.n_cycles = 2;
   REQUIRE(n_legs(stage) == 5);
   const double ends[] = {-0.01, 0.01, -0.01, 0.01, 0.};
   for (int leg = 0; leg < 5; ++leg)
     CHECK(end_of_leg(stage, leg) == ends[leg]);
+  CHECK(strain_path(stage) == Approx(0.08)); // 1 + 2 + 2 + 2 + 1 hundredths
 }
 
 TEST_CASE("every loading path holds what it is named for")
@@ -148,4 +152,21 @@ TEST_CASE("stages out of range are refused")
         s.path = LoadingPath::true_triaxial;
         s.stresses = Vec3(1e3, 0., 1e3);
       });
+}
+
+TEST_CASE("a cell has room for its grains before and after its compression")
+{
+  // Spheres of radius 1 with a Verlet distance of 0.1: 2 (2 + 0.1) when dense.
+  Particles spheres;
+  for (int i = 0; i < 3; ++i)
+    spheres.add(Superquadric{Vec3::Ones(), 1., 1.}, 1., Vec3::Zero(), Quaternion::Identity());
+  CHECK(least_uncompressed_edge(spheres, 0.74, 0.1) == Approx(4.2));
+  CHECK(least_uncompressed_edge(spheres, 0.9, 0.1) == Approx(4.2));
+  CHECK(least_uncompressed_edge(spheres, 0.37, 0.1) == Approx(4.2 * std::cbrt(2.)));
+  // Two spheres of radius 0.1 at 1 from their middle: their contacts range over 2 (0.21 + 1) alone.
+  ClumpShape shape;
+  shape.parts = {{{Vec3::Constant(0.1), 1., 1.}, Vec3(-1., 0., 0.)}, {{Vec3::Constant(0.1), 1., 1.}, Vec3(1., 0., 0.)}};
+  Particles dumbbell;
+  dumbbell.add(Clump(shape, 1e-3), 1., Vec3::Zero(), Quaternion::Identity());
+  CHECK(least_uncompressed_edge(dumbbell, 0.74, 0.1) == Approx(4.4));
 }

@@ -3,6 +3,7 @@
 #include "tests/unit/dem_measure_contacts.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace bergamo;
 using namespace bergamo::dem;
@@ -31,4 +32,13 @@ TEST_CASE("an assembly's row gathers what its contacts say")
   CHECK(periodic.coordination.mean == 8.);
   CHECK(periodic.stress == mean_stress(pairs, 2.));
   CHECK_THROWS_AS(measure_assembly(particles, pairs, walls, 0.3, 0.), ConfigError);
+}
+
+TEST_CASE("grains that overlap by more than a fifth of their radius have diverged")
+{
+  CHECK_NOTHROW(check_overlap(0.2, 1., "less"));
+  CHECK_THROWS_WITH(check_overlap(0.3, 0.125, "smaller steps"),
+                    "the run diverged: grains overlap by 0.3 of their radius at time 0.125 s; choose smaller steps");
+  CHECK_THROWS_AS(check_overlap(0.3, 0.125, "smaller steps"), RunError);
+  CHECK_THROWS_AS(check_overlap(std::nan(""), 0.125, "smaller steps"), RunError);
 }

@@ -8,6 +8,7 @@
 #include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
+#include "dem/state/positions_by_id.h"
 #include "fe_dealii/mesh/box_mesh.h"
 
 #include <deal.II/grid/tria.h>
@@ -44,12 +45,9 @@ TwoScaleModel make_model(const coupling::Projection projection, const double ini
   std::vector<double> weight;
   for (const auto &x : model.body()->node_position())
     weight.push_back(std::clamp((x[2] - layer) / layer, 0., 1.));
-  std::vector<Vec3> reference(model.grains()->particles.size());
-  for (std::size_t i = 0; i < reference.size(); ++i)
-    reference[model.grains()->particles.id[i]] = model.grains()->particles.position[i];
   coupling::CouplingParameters join;
   join.projection = projection;
-  model.join(join, weight, reference);
+  model.join(join, weight, dem::positions_by_id(model.grains()->particles));
   return model;
 }
 

@@ -8,6 +8,7 @@
 #include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
+#include "dem/state/positions_by_id.h"
 #include "fe_dealii/membrane_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 
@@ -99,14 +100,6 @@ void step_alone(fe::MovingBody &body)
   body.drift(time_step);
 }
 
-std::vector<Vec3> places_by_id(const dem::Simulation &grains)
-{
-  std::vector<Vec3> places(grains.particles.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
-    places[grains.particles.id[i]] = grains.particles.position[i];
-  return places;
-}
-
 /// 1 above the height, going down to 0 over a layer.
 std::vector<double> weights_above(const fe::ExplicitBody &body, const double height)
 {
@@ -162,7 +155,7 @@ TEST_CASE("what an overlap does not touch keeps its bits beside it, and the over
         below{Vec3(0., 0., 0.), Vec3(edge, edge, 2. * layer)};
     auto &grains = model.add(std::make_unique<GrainsMover>(grains_in(above, false)));
     auto &body = model.add(std::make_unique<SolidMover>(body_in(below, {3, 3, 2}, strong)));
-    const std::vector<Vec3> reference = places_by_id(grains.simulation());
+    const std::vector<Vec3> reference = dem::positions_by_id(grains.simulation().particles);
     const std::vector<double> weight = weights_above(body.solid(), 2. * layer);
     model.add(std::make_unique<ArlequinCoupling>(grains, body, CouplingParameters(), OverlapPlace{weight, reference}));
     return std::pair(&grains, &body);
@@ -199,8 +192,8 @@ TEST_CASE("a body between two packings: each overlap keeps the balance of forces
   auto &upper = model.add(std::make_unique<GrainsMover>(grains_in(top, false, 7), "upper grains"));
   auto &lower = model.add(std::make_unique<GrainsMover>(grains_in(foot, false, 8), "lower grains"));
   std::vector<double> weight = weights_above(body.solid(), 4. * layer);
-  const std::vector<Vec3> upper_places = places_by_id(upper.simulation()),
-                          lower_places = places_by_id(lower.simulation());
+  const std::vector<Vec3> upper_places = dem::positions_by_id(upper.simulation().particles),
+                          lower_places = dem::positions_by_id(lower.simulation().particles);
   auto &over = model.add(std::make_unique<ArlequinCoupling>(upper, body, CouplingParameters(),
                                                             OverlapPlace{weight, upper_places}, "above"));
   CHECK_THROWS_WITH(ArlequinCoupling(upper, body, CouplingParameters(), {weight, upper_places}),

@@ -1,4 +1,5 @@
 #include "dem/geometry/common_normal.h"
+#include "dem/motion/stable_step.h"
 #include "dem/simulation/simulation.h"
 
 #include "tests/threads.h"
@@ -525,4 +526,23 @@ TEST_CASE("the forces of a pair that turns as one body turn with it")
   }
   CAPTURE(errors);
   CHECK(order(errors) > 0.9);
+}
+
+TEST_CASE("the stable step of two equal spheres is that of their contact's normal stiffness")
+{
+  // Two masses m on a spring k: omega^2 = 2 k/m, and leapfrog bears steps up to 2/omega. The contact's coefficient
+  // comes from the ellipse table, good to 1e-9; the overlap of the spheres is a difference of their radii: 1e-16/1e-5.
+  const double relative_overlap = GENERATE(1e-5, 1e-3);
+  const SimulationParameters p = elastic_parameters();
+  Particles grains;
+  grains.add(sphere(radius), p.grain().density, Vec3::Zero(), Quaternion::Identity());
+  grains.add(sphere(radius), p.grain().density, Vec3(radius * (2. - relative_overlap), 0., 0.), Quaternion::Identity());
+  Pair pair(p, grains);
+  pair.simulation.compute_forces();
+  REQUIRE(pair.touches());
+  const ContactState<double> state = pair.contacts()[0].state;
+  const double stiffness = 1.5 * state.stiffness.normal * std::sqrt(state.overlap);
+  const double limit = stable_step_of_two_spheres(radius, p.grain(), relative_overlap);
+  CHECK(limit == Approx(2. / std::sqrt(2. * stiffness / pair.mass(0))).epsilon(1e-8));
+  CHECK(pair.simulation.stable_time_step() <= limit); // other modes are stiffer
 }

@@ -18,7 +18,7 @@ std::string file_name(const std::string &model, const std::size_t number)
 
 } // namespace
 
-void PictureSeries::add(const double time, const std::vector<std::pair<std::string, PictureWriter>> &models)
+void PictureSeries::add(const double time, const std::vector<Picture> &models)
 {
   times.push_back(time);
   for (const auto &[name, write] : models)

@@ -14,6 +14,9 @@ namespace bergamo::driver
 /// Makes the file of that path. Throws RunError where it cannot be written.
 using PictureWriter = std::function<void(const std::filesystem::path &)>;
 
+/// A model's name, with which its files begin, and what writes them.
+using Picture = std::pair<std::string, PictureWriter>;
+
 /// Files of a run's models at several times, for ParaView: NAME_0000.vtu and so on of each model, and NAME.pvd, which
 /// joins them.
 class PictureSeries
@@ -23,7 +26,7 @@ public:
 
   /// @param time simulated [s] @param models the same names at each time. Throws RunError where a file cannot be
   /// written
-  void add(double time, const std::vector<std::pair<std::string, PictureWriter>> &models);
+  void add(double time, const std::vector<Picture> &models);
 
   /// The times of the files that are there.
   void visit(StateVisitor &visit) { visit("picture_times", times); }

@@ -82,8 +82,11 @@ RunFigures Run::figures(const std::int64_t n_particles) const
   return figures;
 }
 
-int Run::finish(const Summary &summary, const std::vector<PlotJob> &pictures) const
+int Run::finish(const Summary &summary, const std::vector<std::string> &scripts) const
 {
+  std::vector<PlotJob> pictures;
+  for (const std::string &script : scripts)
+    pictures.push_back({script, {folder_.path().string()}});
   report_run(summary, folder_, command_line_, pictures);
   return done;
 }

@@ -68,7 +68,8 @@ public:
   RunFigures figures(std::int64_t n_particles) const;
 
   /// Writes and shows the summary, draws the pictures, as report_run(). @return done
-  int finish(const Summary &summary, const std::vector<PlotJob> &pictures) const;
+  /// @param scripts that draw the folder of the run, see PlotJob
+  int finish(const Summary &summary, const std::vector<std::string> &scripts) const;
 
   /// Tells how to go on. @return stopped_by_user
   int stop() const;

@@ -21,6 +21,9 @@ class Table
 public:
   Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
+  /// Puts further columns to the right.
+  void add(const std::vector<Column> &columns) { columns_.insert(columns_.end(), columns.begin(), columns.end()); }
+
   std::vector<std::string> names() const
   {
     std::vector<std::string> names;

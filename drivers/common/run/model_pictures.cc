@@ -1,0 +1,33 @@
+#include "drivers/common/run/model_pictures.h"
+
+#include "dem/io/vtu.h"
+#include "dem/simulation/simulation.h"
+#include "fe_dealii/output.h"
+
+namespace bergamo::driver
+{
+namespace
+{
+
+void write_grains(const dem::Simulation &grains, const std::filesystem::path &path)
+{
+  std::vector<double> force;
+  for (const Vec3 &f : grains.particles.force)
+    force.push_back(f.norm());
+  const dem::GrainField fields[] = {{"weight", grains.particles.weight}, {"resultant_force", force}};
+  dem::write_grains_vtu(grains.particles, fields, path);
+}
+
+} // namespace
+
+std::vector<Picture> pictures_of(const dem::Simulation *grains, const fe::ExplicitBody *body)
+{
+  std::vector<Picture> pictures;
+  if (grains)
+    pictures.emplace_back("grains", [grains](const auto &path) { write_grains(*grains, path); });
+  if (body)
+    pictures.emplace_back("continuum", [body](const auto &path) { fe::write_vtu(*body, path); });
+  return pictures;
+}
+
+} // namespace bergamo::driver
