@@ -56,7 +56,8 @@ MoverEnergy GrainsMover::energy() const
 {
   const dem::GrainEnergy e = grains_->energy();
   return {e.kinetic, e.normal + e.tangential, e.friction_loss + e.viscous_loss,
-          e.wall_work + e.gravity_work + e.curvature_work + e.exchanged + e.step_change};
+          e.wall_work + e.gravity_work + e.curvature_work + e.search_work + e.quadrature_work + e.exchanged +
+              e.step_change};
 }
 
 void GrainsMover::set_weights(const std::span<const std::int64_t> id, const std::span<const double> weight)

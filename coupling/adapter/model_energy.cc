@@ -16,6 +16,8 @@ ModelEnergy energy_of(const TwoScaleModel &model)
     e.wall_work += g.wall_work;
     e.gravity_work += g.gravity_work;
     e.curvature_work = g.curvature_work;
+    e.search_work = g.search_work;
+    e.quadrature_work = g.quadrature_work;
   }
   if (const fe::ExplicitBody *body = model.body())
   {

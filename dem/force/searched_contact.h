@@ -58,6 +58,12 @@ void take_search(ContactState<Real> &s, const ContactState<Real> &before, const 
   ContactState<Real> stepped = s;
   if (math::any(!is_followed))
   {
+    // The dashpot's force of last step stays.
+    const Real old_elastic = elastic_force(s.stiffness.normal, before.root());
+    s.forces.normal =
+        math::select(before.overlap > Real(0.), Real(old_elastic + (before.forces.normal - before.elastic_force())),
+                     before.forces.normal);
+    stepped = s;
     TangentFrameOf<Real> frame;
     frame << s.axis, s.second_axis();
     const ContactMotion<Real, Vector2<Real>> seen{-s.normal.dot(displacement), in_frame(frame, displacement)};

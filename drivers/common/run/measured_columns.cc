@@ -40,6 +40,8 @@ std::vector<Column> columns_of(const dem::CellMeasures &cell)
           {"energy_friction_loss_J", [&cell] { return cell.energy.friction_loss; }},
           {"energy_viscous_loss_J", [&cell] { return cell.energy.viscous_loss; }},
           {"energy_curvature_work_J", [&cell] { return cell.energy.curvature_work; }},
+          {"energy_search_work_J", [&cell] { return cell.energy.search_work; }},
+          {"energy_quadrature_work_J", [&cell] { return cell.energy.quadrature_work; }},
           {"energy_cell_work_J", [&cell] { return cell.energy.cell_work; }}};
 }
 
@@ -54,7 +56,9 @@ std::vector<Column> columns_of(const coupling::ModelEnergy &energy)
           {"energy_plastic_loss_J", [&energy] { return energy.plastic_loss; }},
           {"energy_wall_work_J", [&energy] { return energy.wall_work; }},
           {"energy_gravity_work_J", [&energy] { return energy.gravity_work; }},
-          {"energy_curvature_work_J", [&energy] { return energy.curvature_work; }}};
+          {"energy_curvature_work_J", [&energy] { return energy.curvature_work; }},
+          {"energy_search_work_J", [&energy] { return energy.search_work; }},
+          {"energy_quadrature_work_J", [&energy] { return energy.quadrature_work; }}};
 }
 
 } // namespace bergamo::driver
