@@ -34,6 +34,9 @@ Real magnitude(const Vector2<Real> &v)
 /// Turns that are followed at once: beyond it a contact is searched [rad].
 inline constexpr double largest_turn = 0.01;
 
+/// Budgets used up in one step beyond which nothing is followed: with 64 times the error it would say nothing.
+inline constexpr double largest_wear = 4.;
+
 /// The displacement as the frame half way between this step's and the last one's sees it.
 template <class Real>
 ContactMotion<Real, Vector2<Real>> motion_in_frame(const Vector3<Real> &normal, const TangentFrameOf<Real> &frame,

@@ -39,7 +39,7 @@ Followed<Real> follow(ContactState<Real> &state, const Motion &motion, const Con
   // Whatever is no number is lost: the search mends it, or its force stops the run.
   const math::Mask<Real> is_lost = !(next.overlap > Real(0.)) ||
                                    !(magnitude(turn.tilt) + math::abs(turn.spin) < Real(largest_turn)) ||
-                                   !(turn.wear < Real(1.)),
+                                   !(turn.wear < Real(largest_wear)),
                          is_due = is_lost || !(next.budget >= Real(0.));
   next.overlap = math::select(is_lost, state.overlap, next.overlap);
 

@@ -6,7 +6,9 @@
 #include "dem/geometry/pair_search.h"
 #include "dem/geometry/turn_wear.h"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace bergamo::dem
 {
@@ -64,15 +66,27 @@ Real contact_weight(const Real &weight1, const Real &weight2, const Vector3<Real
   return weight1 + fraction * (weight2 - weight1);
 }
 
-} // namespace
+/// What searches give beside the states of the contacts.
+struct SearchYield
+{
+  ContactLosses losses; ///< with the weights [J]
+  std::vector<BegunContact<GrainGrain>> begun;
+};
 
-void search_contacts(const std::span<ContactSearch> searches, const SearchContext<GrainGrain> &context,
-                     ContactLosses &losses, std::vector<BegunContact<GrainGrain>> &begun)
+enum class Effort
+{
+  one_evaluation, ///< what that does not decide stays as it is
+  all
+};
+
+/// Searches one pack. @param which of the searches, at most pack_width; @return those that are not decided
+std::vector<std::size_t> search_pack(const std::span<ContactSearch> all, const std::span<const std::size_t> which,
+                                     const Effort effort, const SearchContext<GrainGrain> &context, SearchYield &yield)
 {
   const ContactScene &scene = context.scene;
   const Particles &p = scene.particles;
-  const int n = static_cast<int>(searches.size());
-  const auto search_of = [&](const int lane) -> const ContactSearch & { return searches[lane < n ? lane : 0]; };
+  const int n = static_cast<int>(which.size());
+  const auto search_of = [&](const int lane) -> ContactSearch & { return all[which[lane < n ? lane : 0]]; };
   const auto first_part = [&](const int lane) { return search_of(lane).first_part; };
   const auto second_part = [&](const int lane) { return search_of(lane).second_part; };
   const auto first = [&](const int lane) { return search_of(lane).first; };
@@ -100,10 +114,29 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
   if (p.cell.is_periodic())
     body2.position +=
         math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.cell.place[image(lane)]; });
-  const FoundContacts<Pack> found = search_pairs<Pack>(body1, body2, guess, n, scene.parameters.overlap_tolerance);
+  const double tolerance = scene.parameters.overlap_tolerance;
+  std::vector<std::size_t> open;
+  std::array<bool, pack_width> is_decided;
+  is_decided.fill(true);
+  FoundContacts<Pack> found;
+  if (effort == Effort::all)
+    found = search_pairs<Pack>(body1, body2, guess, n, tolerance);
+  else
+  {
+    const FirstLook<Pack> look(body1, body2, guess, tolerance);
+    found = look.found;
+    for (int lane = 0; lane < n; ++lane)
+      if (!math::lane(look.is_decided, lane))
+      {
+        is_decided[lane] = false;
+        open.push_back(which[lane]);
+      }
+  }
   for (int lane = 0; lane < n; ++lane)
   {
-    ContactSearch &search = searches[lane];
+    if (!is_decided[lane])
+      continue;
+    ContactSearch &search = search_of(lane);
     search.is_undecided = found.is_undecided[lane];
     search.is_touching = math::lane(found.overlap, lane) > 0.;
     search.gap = -math::lane(found.overlap, lane);
@@ -111,7 +144,7 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
       context.hint[search.pair] = math::lane<Pack>(found.normal, lane).cast<float>();
   }
   if (!math::any(found.overlap > 0.))
-    return;
+    return open;
 
   const PairMotion<Pack> motion(p, first, second, image, scene.time_step);
   const double bound = scene.parameters.curvature_bound;
@@ -141,17 +174,44 @@ void search_contacts(const std::span<ContactSearch> searches, const SearchContex
                       torque2 = (motion.half_line - s.point).cross(force);
   for (int lane = 0; lane < n; ++lane)
   {
-    ContactSearch &search = searches[lane];
-    if (!search.is_touching)
+    ContactSearch &search = search_of(lane);
+    if (!is_decided[lane] || !search.is_touching)
       continue;
-    losses += lost.of_lane(lane);
+    yield.losses += lost.of_lane(lane);
     search.resultant = {math::lane<Pack>(force, lane), math::lane<Pack>(torque1, lane),
                         math::lane<Pack>(torque2, lane)};
     if (search.slot >= 0)
       context.store.take_lane(search.slot, s, lane);
     else
-      begun.push_back({static_cast<std::size_t>(lane), lane_of(s, lane)});
+      yield.begun.push_back({which[lane], lane_of(s, lane)});
   }
+  return open;
+}
+
+} // namespace
+
+void search_contacts(const std::span<ContactSearch> searches, const SearchContext<GrainGrain> &context,
+                     ContactLosses &losses, std::vector<BegunContact<GrainGrain>> &begun)
+{
+  // Most are decided by one evaluation; the others go on together, in packs of their own.
+  SearchYield yield;
+  const auto search_all = [&](const std::vector<std::size_t> &which, const Effort effort)
+  {
+    std::vector<std::size_t> open;
+    for (std::size_t from = 0; from < which.size(); from += pack_width)
+    {
+      const std::span pack(&which[from], std::min<std::size_t>(pack_width, which.size() - from));
+      const std::vector<std::size_t> left = search_pack(searches, pack, effort, context, yield);
+      open.insert(open.end(), left.begin(), left.end());
+    }
+    return open;
+  };
+  std::vector<std::size_t> all(searches.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  search_all(search_all(all, Effort::one_evaluation), Effort::all);
+  losses += yield.losses;
+  std::sort(yield.begun.begin(), yield.begun.end(), [](const auto &a, const auto &b) { return a.search < b.search; });
+  begun.insert(begun.end(), yield.begun.begin(), yield.begun.end());
 }
 
 } // namespace bergamo::dem

@@ -8,8 +8,8 @@
 namespace bergamo::dem
 {
 
-/// Searches one pack of pairs at the present poses.
-/// @param searches of different pairs, at most pack_width; @param[in,out] losses with the weights [J]
+/// Searches pairs at the present poses, in packs. @param searches of different pairs; @param[in,out] losses with the
+/// weights [J]
 /// @param[in,out] begun appended to
 void search_contacts(std::span<ContactSearch> searches, const SearchContext<GrainGrain> &context, ContactLosses &losses,
                      std::vector<BegunContact<GrainGrain>> &begun);

@@ -137,7 +137,7 @@ private:
   static constexpr double resolution = 1e-15;     // of a unit vector
   static constexpr double growth = 1.5;           // of the longest step after a success
   static constexpr double max_widenings = 3.;
-  static constexpr double wide_enough = 0.2;  // tangential part over width of the gap
+  static constexpr double wide_enough = 0.1;  // what is left to be gained over the gap
   static constexpr double flat_middle = 1e-4; // of a unit normal
 
   /// Inverse of the model's Hessian in tangent_frame(best.c): symmetric, positive definite [1/m]. The inverse, because
@@ -196,7 +196,9 @@ private:
     const Real size = tangential.norm();
     // On a flat face p moves a lot for a change of c below resolution: then c is as good as it can be.
     const Mask at_minimum = size < Real(tolerance) * length_scale || step.norm() < Real(resolution);
-    const Mask is_wide = size < Real(-wide_enough) * best.phi || widenings >= Real(max_widenings);
+    // The model's gap is wider by half of the step times the slope.
+    const Mask is_wide =
+        Real(0.5) * step.dot(tangential) < Real(-wide_enough) * best.phi || widenings >= Real(max_widenings);
     const Mask may_touch = best.phi >= Real(0.); // not what is no number: that stays open
     is_open = !((is_apart && is_wide) || (may_touch && at_minimum));
   }

@@ -111,62 +111,86 @@ void replace_where(FoundContacts<Real> &found, const math::Mask<Real> &mask, con
 
 } // namespace detail
 
+/// What one evaluation at a guess says of a pack of pairs.
+template <class Real>
+struct FirstLook
+{
+  FoundContacts<Real> found;
+  math::Mask<Real> is_decided; ///< apart, touching to rounding or within the tolerance; or no number
+
+  /// As search_pairs() below.
+  FirstLook(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &guess, const double tolerance)
+      : FirstLook(NewtonSearch<Real>(body1, body2, start_of(body1, body2, guess)), guess.squaredNorm() > Real(0.))
+  {
+    if (!(tolerance > 0.))
+      return;
+    const detail::ModelMinimum<Real> model(body1, body2, search.best, tolerance);
+    is_sure = is_known && model.is_sure;
+    is_decided = is_decided || is_sure;
+    detail::replace_where(found, is_sure, model.found);
+  }
+
+  /// Where the search begins: at the guess, or along the line of the centres.
+  static Vector3<Real> start_of(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &guess)
+  {
+    const Real square = guess.squaredNorm();
+    return math::select<Real>(square > Real(0.), Vector3<Real>(guess / math::sqrt(square)),
+                              centre_direction<Real>(body2.position - body1.position));
+  }
+
+  NewtonSearch<Real> search;
+  math::Mask<Real> is_known;                          ///< had a guess
+  math::Mask<Real> is_sure = math::Mask<Real>(false); ///< the model's minimum was taken
+
+private:
+  FirstLook(const NewtonSearch<Real> &search, const math::Mask<Real> &is_known)
+      : found(detail::found_at(search.best)), search(search), is_known(is_known)
+  {
+    const math::Mask<Real> is_number = found.overlap == found.overlap; // a state that is none stops the run elsewhere
+    is_decided = !is_number || !(search.is_open || is_saddle(search) || (!is_known && is_suspicious(search)));
+    for (int k = 0; k < width<Real>; ++k)
+      found.is_undecided[k] = !math::lane(is_number, k);
+  }
+};
+
 /// Searches a pack of pairs: by one evaluation where the guess is so good that this is enough; then all other lanes
 /// together; then one by one those that are still open, or where the minimum found may be the wrong one. Each lane's
 /// result is find_contact's or update_contact's, to rounding or within the tolerance.
 /// @param guess normals of earlier, nearby configurations, of any length; zero for a pair without
 /// @param n lanes that count, from the first; the others must hold valid bodies
-/// @param tolerance error of the overlap that is allowed, over the overlap, of which one evaluation may leave a
-///        thousandth; 0: none
+/// @param tolerance error that is allowed, of the overlap over the overlap, of the normal [rad]: one evaluation may
+///        leave a thousandth of it; 0: none
 template <class Real>
 FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &guess,
                                  const int n, const double tolerance = 0.)
 {
   constexpr int max_evaluations = 12; // together: more would wait for the last lanes
-  const Vector3<Real> centre_line = body2.position - body1.position;
-  const Real guess_square = guess.squaredNorm();
-  const math::Mask<Real> is_known = guess_square > Real(0.);
-  const Vector3<Real> start =
-      math::select<Real>(is_known, Vector3<Real>(guess / math::sqrt(guess_square)), centre_direction(centre_line));
-  const Evaluation<Real> first(body1, body2, start);
-  math::Mask<Real> is_sure(false);
-  FoundContacts<Real> sure;
-  if (tolerance > 0. && math::any(is_known))
-  {
-    const detail::ModelMinimum<Real> model(body1, body2, first, tolerance);
-    is_sure = is_known && model.is_sure;
-    sure = model.found;
-    if (!math::any(!is_sure))
-    {
-      sure.n_evaluations = n;
-      return sure;
-    }
-  }
-  NewtonSearch<Real> search(body1, body2, first);
-  search.close(is_sure);
+  FirstLook<Real> look(body1, body2, guess, tolerance);
+  look.found.n_evaluations = n;
+  if (!math::any(!look.is_decided))
+    return look.found;
+  NewtonSearch<Real> &search = look.search;
+  search.close(look.is_decided);
   search.run(max_evaluations);
 
-  const Evaluation<Real> &e = search.best;
-  FoundContacts<Real> found = detail::found_at(e);
-  if (math::any(is_sure))
-    detail::replace_where(found, is_sure, sure);
+  FoundContacts<Real> found = detail::found_at(search.best);
+  detail::replace_where(found, look.is_decided, look.found);
+  found.is_undecided = look.found.is_undecided;
   found.n_evaluations = search.n_evaluations * n;
-  const math::Mask<Real> is_number = e.phi == e.phi; // a state that is none stops the run elsewhere
-  math::Mask<Real> is_doubtful = !is_sure && (search.is_open || is_saddle(search));
-  if (math::any(!is_known))
-    is_doubtful = is_doubtful || (!is_known && is_suspicious(search));
-  is_doubtful = is_doubtful && is_number;
-  if (math::any(!is_number))
-    for (int k = 0; k < n; ++k)
-      found.is_undecided[k] = !math::lane(is_number, k);
+  math::Mask<Real> is_doubtful = search.is_open || is_saddle(search);
+  if (math::any(!look.is_known))
+    is_doubtful = is_doubtful || (!look.is_known && is_suspicious(search));
+  is_doubtful = is_doubtful && !look.is_decided;
   if (!math::any(is_doubtful))
     return found;
+  const Vector3<Real> start = FirstLook<Real>::start_of(body1, body2, guess);
   for (int k = 0; k < n; ++k)
     if (math::lane(is_doubtful, k))
     {
       const BodyPose alone1 = lane(body1, k), alone2 = lane(body2, k);
-      const ContactGeometry g = math::lane(is_known, k) ? update_contact(alone1, alone2, math::lane<Real>(start, k))
-                                                        : find_contact(alone1, alone2);
+      const ContactGeometry g = math::lane(look.is_known, k)
+                                    ? update_contact(alone1, alone2, math::lane<Real>(start, k))
+                                    : find_contact(alone1, alone2);
       detail::set_lane(found.normal, k, g.normal);
       detail::set_lane(found.overlap, k, g.overlap);
       detail::set_lane(found.arm1, k, g.arm1);

@@ -18,7 +18,7 @@ struct GrainGrain : BetweenParts
   using Hint = Eigen::Vector3f; ///< direction that separates a pair apart; zero for a pair never searched
   static Hint no_hint() { return Hint::Zero(); }
 
-  static constexpr std::size_t search_group = pack_width;
+  static constexpr std::size_t search_group = 64;
 
   static math::Mask<Pack> follow_block(Store &store, LoadSums &loads, std::size_t block, const ContactScene &scene,
                                        Losses<Pack> &losses);
