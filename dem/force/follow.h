@@ -37,9 +37,10 @@ Followed<Real> follow(ContactState<Real> &state, const Motion &motion, const Con
   next.overlap += seen.approach;
   next.budget -= turn.wear;
   // Whatever is no number is lost: the search mends it, or its force stops the run.
-  const math::Mask<Real> is_lost = !(next.overlap > Real(0.)) ||
-                                   !(magnitude(turn.tilt) + math::abs(turn.spin) < Real(largest_turn)) ||
-                                   !(turn.wear < Real(largest_wear)),
+  const math::Mask<Real> is_lost =
+                             !(next.overlap > Real(0.)) ||
+                             !(turn.tilt.squaredNorm() + turn.spin * turn.spin < Real(largest_turn * largest_turn)) ||
+                             !(turn.wear < Real(largest_wear)),
                          is_due = is_lost || !(next.budget >= Real(0.));
   next.overlap = math::select(is_lost, state.overlap, next.overlap);
 

@@ -67,7 +67,7 @@ template <class Real>
 struct ModelMinimum
 {
   FoundContacts<Real> found;
-  math::Mask<Real> is_sure; ///< touching, and the model's error is below a thousandth of what is allowed
+  math::Mask<Real> is_sure; ///< touching, and the model's error of the overlap is below a hundredth of what is allowed
 
   /// @param tolerance error allowed: of the overlap over the overlap, of the normal [rad]
   ModelMinimum(const Pose<Real> &body1, const Pose<Real> &body2, const Evaluation<Real> &e, const double tolerance)
@@ -82,8 +82,8 @@ struct ModelMinimum
     const Real wear = turn_wear(change1, e.radii1, error) + turn_wear(change2, e.radii2, error);
     const Real square = tilt.squaredNorm();
     is_sure = found.overlap > Real(0.) && hessian.r11 > Real(0.) &&
-              hessian.r11 * hessian.r22 > hessian.r12 * hessian.r12 && square * wear * wear < Real(0.01) &&
-              square * (change1 + change2) < Real(2e-3 * tolerance);
+              hessian.r11 * hessian.r22 > hessian.r12 * hessian.r12 && square * wear * wear < Real(0.04) &&
+              square * (change1 + change2) < Real(0.1 * tolerance);
     found.arm1 += from_frame(frame, e.radii1 * tilt);
     found.arm2 -= from_frame(frame, e.radii2 * tilt);
     const Vector3<Real> normal = e.c + from_frame(frame, tilt);
@@ -159,7 +159,7 @@ private:
 /// @param guess normals of earlier, nearby configurations, of any length; zero for a pair without
 /// @param n lanes that count, from the first; the others must hold valid bodies
 /// @param tolerance error that is allowed, of the overlap over the overlap, of the normal [rad]: one evaluation may
-///        leave a thousandth of it; 0: none
+///        leave a hundredth of it; 0: none
 template <class Real>
 FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body2, const Vector3<Real> &guess,
                                  const int n, const double tolerance = 0.)

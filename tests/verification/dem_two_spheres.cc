@@ -540,7 +540,7 @@ TEST_CASE("the stable step of two equal spheres is that of their contact's norma
   Pair pair(p, grains);
   pair.simulation.compute_forces();
   REQUIRE(pair.touches());
-  const ContactState<double> state = pair.contacts()[0].state;
+  const ContactView state = pair.contacts()[0].state;
   const double stiffness = 1.5 * state.stiffness.normal * std::sqrt(state.overlap);
   const double limit = stable_step_of_two_spheres(radius, p.grain(), relative_overlap);
   CHECK(limit == Approx(2. / std::sqrt(2. * stiffness / pair.mass(0))).epsilon(1e-8));
