@@ -188,8 +188,8 @@ PrincipalReturn<Real> MohrCoulomb::return_principal(const Real (&trial)[3]) cons
   const Real edge_major = tensile_slope_ * edge_minor + tensile_start_;
 
   // Beyond the apex the surface's mirror image waits. Without dilation the flow rule alone cannot lower the mean
-  // stress; the apex is then the nearest admissible state.
-  const math::Mask<Real> is_apex = math::Mask<Real>(f > 0) & !on_plane & !(edge_major >= edge_minor);
+  // stress; the apex is then the nearest admissible state. Without friction the two planes are parallel.
+  const math::Mask<Real> is_apex = !(on_plane | (edge_major >= edge_minor));
   const Real apex_or(apex_);
   result.value[2] = math::select(is_apex, apex_or, math::select(on_plane, minor, edge_minor));
   result.value[0] = math::select(is_apex, apex_or, math::select(on_plane, major, edge_major));
