@@ -2,6 +2,7 @@
 // and their cost over the number of elements. `explicit_solid --help`.
 
 #include "benchmarks/core_peak.h"
+#include "benchmarks/membrane_speed.h"
 #include "benchmarks/program.h"
 #include "benchmarks/resident_memory.h"
 #include "benchmarks/solid_case.h"
@@ -13,6 +14,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -139,6 +141,27 @@ nlohmann::json size(const Options &options)
   return {{"rows", rows}};
 }
 
+nlohmann::json membranes(const Options &options)
+{
+  omp_set_num_threads(1);
+  CorePeak peak;
+  raise_core_peak(peak);
+  const double n_elements = options.n_elements ? options.n_elements : 27000;
+  const MembraneSpeed speed =
+      measure_membranes(static_cast<int>(std::sqrt(n_elements)), options.n_repeats, options.n_steps);
+  const Spread rate{1e3 / speed.step.most, 1e3 / speed.step.median, 1e3 / speed.step.least};
+  std::cout << std::fixed << std::setprecision(0) << "Neo-Hookean membranes of 4 nodes, " << speed.n_elements
+            << ": an element needs " << speed.operations << " operations and moves " << speed.bytes << " bytes\n"
+            << std::setprecision(2) << "million elements/s: least " << rate.least << ", median " << rate.median
+            << ", most " << rate.most << "; GFLOP/s " << speed.operations / speed.step.median << " of "
+            << 1e-9 * peak.operations << ", GB/s " << speed.bytes / speed.step.median << " of " << 1e-9 * peak.reading
+            << std::endl;
+  return {{"elements", speed.n_elements},
+          {"million_elements_per_second", json_of(rate)},
+          {"operations", speed.operations},
+          {"bytes_moved_per_step", speed.bytes}};
+}
+
 std::optional<Options> parse(const int argc, char **const argv)
 {
   Options o;
@@ -147,9 +170,9 @@ std::optional<Options> parse(const int argc, char **const argv)
       "bytes that they need, efficiency over cores, cost over the number of elements.",
       "explicit_solid");
   app.add_option("--study", o.study,
-                 "speed: one thread, all cases; scaling: 1 to all threads; size: one thread, 10^3 to 10^6 elements "
-                 "(default: speed)")
-      ->check(CLI::IsMember({"speed", "scaling", "size"}));
+                 "speed: one thread, all cases; scaling: 1 to all threads; size: one thread, 10^3 to 10^6 elements; "
+                 "membranes: one thread, a sheet (default: speed)")
+      ->check(CLI::IsMember({"speed", "scaling", "size", "membranes"}));
   app.add_option("--only", o.only,
                  "Only cases whose name and number of nodes, such as 'Ogden 27', hold this (default: all; scaling and "
                  "size: elastic and flowing Mohr-Coulomb of 8 nodes)");
@@ -173,9 +196,10 @@ std::optional<Options> parse(const int argc, char **const argv)
 
 nlohmann::json measure(const Options &options)
 {
-  nlohmann::json figures = options.study == "speed"     ? speed(options)
-                           : options.study == "scaling" ? scaling(options)
-                                                        : size(options);
+  nlohmann::json figures = options.study == "speed"       ? speed(options)
+                           : options.study == "scaling"   ? scaling(options)
+                           : options.study == "membranes" ? membranes(options)
+                                                          : size(options);
   figures["study"] = options.study;
   return figures;
 }

@@ -1,7 +1,8 @@
 // One hot kernel on fixed seeded grains, so that its instructions can be counted: benchmarks/instruction_counts.py runs
 // this program under callgrind with one pass and with two, and takes the difference.
 //
-// Usage: instruction_counts KERNEL PASSES; prints the items (contacts, pairs, grains) of one pass and the compiler.
+// Usage: instruction_counts KERNEL PASSES; prints the items (contacts, pairs, grains, elements) of one pass and the
+// compiler.
 //        instruction_counts                prints the kernels
 
 #include "dem/force/contacts.h"
@@ -12,6 +13,7 @@
 #include "dem/geometry/pose_lanes.h"
 #include "dem/motion/leapfrog.h"
 #include "dem/packing/distribution.h"
+#include "fe_dealii/element/hexahedron.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -326,15 +328,73 @@ int sum_of_six_contacts(const int passes, Random &)
   return n_grains;
 }
 
+/// Strains, stresses and nodal forces of elements of 8 nodes. Each pass takes them on by the same strain increment,
+/// which is large enough for all points to flow if they can.
+template <class Law>
+int hexahedra(const Law &law, const int passes, Random &random)
+{
+  constexpr int n_elements = 32;
+  struct Element
+  {
+    fe::hexahedron::Geometry geometry;
+    fe::PointHistory history;
+    double increment[fe::hexahedron::n_dofs], force[fe::hexahedron::n_dofs];
+    fe::Sector sector[fe::hexahedron::n_points];
+  };
+  std::vector<Element> elements(n_elements);
+  for (Element &e : elements)
+  {
+    e.geometry.volume_fraction = fe::Points(1. / fe::hexahedron::n_points);
+    e.geometry.volume = e.geometry.share_volume = fe::Points(1e-3);
+    for (auto &axis : e.geometry.gradient)
+      for (fe::Points &gradient : axis)
+        for (int point = 0; point < fe::hexahedron::n_points; ++point)
+          gradient[point] = random(-10., 10.); // [1/m]
+    for (double &displacement : e.increment)
+      displacement = random(-1e-3, 1e-3); // [m]
+    e.history = {};
+  }
+  for (int pass = 0; pass < passes; ++pass)
+    for (Element &e : elements)
+    {
+      fe::Points strain[6];
+      fe::hexahedron::strain(e.geometry, e.increment, strain);
+      fe::update_stress(law, e.geometry.share_volume, strain, e.history, e.sector);
+      fe::hexahedron::internal_force(e.geometry, e.history.stress, e.force);
+      asm volatile("" : : "m"(e.force)); // somebody reads them
+      for (const fe::Sector sector : e.sector)
+        if (std::is_same_v<Law, fe::MohrCoulomb> && sector == fe::Sector::elastic)
+          std::abort();
+    }
+  return n_elements;
+}
+
+int elastic_hexahedron(const int passes, Random &random)
+{
+  return hexahedra(fe::LinearElastic({.young_modulus = 60e6, .poisson_ratio = 0.15}), passes, random);
+}
+
+int flowing_hexahedron(const int passes, Random &random)
+{
+  return hexahedra(fe::MohrCoulomb({}), passes, random);
+}
+
 struct Kernel
 {
   const char *name;
   int (*run)(int passes, Random &random); ///< @return items of one pass
 };
 constexpr Kernel kernels[] = {
-    {"follow_contact", follow_contact}, {"follow_sphere_contact", follow_sphere_contact}, {"warm_search", warm_search},
-    {"cold_search", cold_search},       {"support_evaluation", support_evaluation},       {"motion", motion},
-    {"sphere_motion", sphere_motion},   {"sum_of_six_contacts", sum_of_six_contacts},
+    {"follow_contact", follow_contact},
+    {"follow_sphere_contact", follow_sphere_contact},
+    {"warm_search", warm_search},
+    {"cold_search", cold_search},
+    {"support_evaluation", support_evaluation},
+    {"motion", motion},
+    {"sphere_motion", sphere_motion},
+    {"sum_of_six_contacts", sum_of_six_contacts},
+    {"elastic_hexahedron", elastic_hexahedron},
+    {"flowing_hexahedron", flowing_hexahedron},
 };
 
 } // namespace

@@ -2,11 +2,11 @@
 """Counts the instructions of the hot kernels under callgrind and compares them with those kept in
 instruction_counts.json: the same on every machine with this compiler and these libraries, whatever else runs there.
 
-Prints kernel, instructions kept and now per item (contact, pair or grain) and the change; ends with status 1 if one
+Prints kernel, instructions kept and now per item (contact, pair, grain, element) and the change; ends with status 1 if one
 grew by more than 5 %, with 77 if the counts kept are another compiler's or another width's.
 Usage: instruction_counts.py PROGRAM             compare
        instruction_counts.py PROGRAM --update    keep what is counted now
-       instruction_counts.py PROGRAM --split KERNEL   where the instructions of one kernel are, by function of dem/
+       instruction_counts.py PROGRAM --split KERNEL   where the instructions of one kernel are, by function of the program
 """
 
 import argparse
@@ -122,8 +122,8 @@ def short(function):
     return last[-1] if last and not last[-1].startswith("operator") else None
 
 
-def functions_of_dem(program, addresses):
-    """By address: file and name of the innermost function of dem/ there, inlined or not."""
+def functions_of_program(program, addresses):
+    """By address: file and name of the innermost function of dem/ or fe_dealii/ there, inlined or not."""
     listing = subprocess.run(["addr2line", "-e", program, "-afiC"], env=ENVIRONMENT, capture_output=True, text=True,
                              input="\n".join(hex(a) for a in addresses), check=True).stdout
     found, address, function = {}, None, None
@@ -133,7 +133,7 @@ def functions_of_dem(program, addresses):
         elif function is None:
             function = line
         else:
-            path = re.search(r"/((?:dem|benchmarks)/[^:]*)", line)
+            path = re.search(r"/((?:dem|fe_dealii|benchmarks)/[^:]*)", line)
             if address not in found and path and not path[1].endswith("core/pack.h") and short(function):
                 found[address] = (path[1], short(function))
             function = None
@@ -156,7 +156,7 @@ def split(program, kernel):
     twice.subtract(once)
     costs = {place: cost for place, cost in twice.items() if cost}
     inside = [address for (path, _, address) in costs if os.path.basename(path) == os.path.basename(program)]
-    functions, slow = functions_of_dem(program, inside), slow_instructions(program)
+    functions, slow = functions_of_program(program, inside), slow_instructions(program)
     rows = collections.defaultdict(lambda: [0, 0, 0])
     for (path, function, address), cost in costs.items():
         is_inside = os.path.basename(path) == os.path.basename(program)

@@ -15,6 +15,11 @@ constexpr double logarithm = 20., exponential = 20., power = logarithm + 1. + ex
 /// criterion 11 make a sweep, four sweeps and three exchanges a frame.
 constexpr double principal_frame = 4. * (3. * 41. + 11.) + 3.;
 
+/// The dyads of a stress: 22 to scale its deviator, 14 for the determinant, 32 for the value apart (16 of them its
+/// polynomial), 27 for its dyad, 16 for the plane across, 21 to scale that, 19 for roots, signs and values. Then 33 for
+/// the return by masks, 26 back to components, 68 for both measures of the plastic strain and their books.
+constexpr double principal_dyads = 22. + 14. + 32. + 27. + 16. + 21. + 19.;
+
 struct StressOfPoint
 {
   double flowing_share;
@@ -22,12 +27,11 @@ struct StressOfPoint
   /// 12 for the elastic stress and 6 to add it.
   double operator()(const fe::LinearElastic &) const { return 18.; }
 
-  /// 18 for the trial stress, 18 for its invariants, 6 to see that it lies inside; if not, a principal frame and 134:
-  /// 17 for the return, 54 back from the frame, 63 for plastic strain, its equivalent and the dissipation.
+  /// 18 for the trial stress, 18 for its invariants, 6 to see that it lies inside; if not, dyads, return and measures.
   /// Stiffness by pressure: 4 for the pressure, its power, 6 to scale, 26 for the elastic work.
   double operator()(const fe::MohrCoulomb &law) const
   {
-    return 42. + flowing_share * (principal_frame + 134.) + (law.depends_on_pressure() ? 36. + power : 0.);
+    return 42. + flowing_share * (principal_dyads + 33. + 26. + 68.) + (law.depends_on_pressure() ? 36. + power : 0.);
   }
 
   /// 28 for the stress, 15 + 5 for tr C and the energy.

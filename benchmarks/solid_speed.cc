@@ -16,7 +16,7 @@ namespace
 
 /// What a core shall do at least, million elements of 8 nodes a second.
 const std::map<std::string, double> aims{
-    {"elastic", 1.5}, {"Mohr-Coulomb elastic", 0.5}, {"Mohr-Coulomb flowing", 0.5}};
+    {"elastic", 1.5}, {"Mohr-Coulomb elastic", 0.5}, {"Mohr-Coulomb flowing", 1.5}};
 
 std::string name_of(const std::string &name, const int nodes_per_element)
 {

@@ -3,6 +3,7 @@
 #include "fe_dealii/element/points.h"
 #include "fe_dealii/material/linear_elastic.h"
 #include "fe_dealii/material/mohr_coulomb.h"
+#include "fe_dealii/material/plastic_flow.h"
 
 /// Laws of small strain at the eight points of a pack. Strains are xx yy zz xy yz zx with engineering shears.
 namespace bergamo::fe
@@ -49,15 +50,39 @@ inline void update_stress(const LinearElastic &material, const Points &, const P
     history.stress[i] += increment[i];
 }
 
+/// Takes the trial stresses of a register of points back to the yield surface, and books their plastic flow.
+/// @param volume what their dissipation counts with [m³]; @param first of the points
+inline void flow_plastically(const MohrCoulomb &material, const Points &volume, const Points &softness, const int first,
+                             Points (&trial)[6], PointHistory &history, Sector *sector)
+{
+  Pack stress_old[6], stress_trial[6];
+  for (int i = 0; i < 6; ++i)
+  {
+    stress_old[i] = part(history.stress[i], first);
+    stress_trial[i] = part(trial[i], first);
+  }
+  const PlasticFlow<Pack> flow = plastic_flow(material, stress_old, stress_trial, part(softness, first));
+  for (int i = 0; i < 6; ++i)
+    set_part(flow.stress[i], first, trial[i]);
+  set_part(part(history.plastic_strain, first) + flow.strain, first, history.plastic_strain);
+  set_part(part(history.dissipated_energy, first) + part(volume, first) * flow.dissipation, first,
+           history.dissipated_energy);
+  for (int point = 0; point < pack_width; ++point)
+    sector[first + point] = static_cast<Sector>(static_cast<int>(flow.sector[point]));
+}
+
 /// Carries the stresses over a strain increment.
 /// @param weighted_volume times the share that the energies count with [m³]; @param sector one entry per point
 inline void update_stress(const MohrCoulomb &material, const Points &weighted_volume,
                           const Points (&strain_increment)[6], PointHistory &history, Sector *sector)
 {
   const Points dissipated_before = history.dissipated_energy;
-  Points trial[6], stiffness(1.);
+  Points trial[6], stiffness(1.), softness(1.);
   if (material.depends_on_pressure())
+  {
     stiffness = material.stiffness_factor(Points((history.stress[0] + history.stress[1] + history.stress[2]) / 3.));
+    softness = 1. / stiffness;
+  }
   elastic_stress(material, strain_increment, trial);
   for (int i = 0; i < 6; ++i)
     trial[i] = history.stress[i] + stiffness * trial[i];
@@ -68,35 +93,8 @@ inline void update_stress(const MohrCoulomb &material, const Points &weighted_vo
   for (int point = 0; point < points_per_pack; ++point)
     sector[point] = Sector::elastic;
   if (math::any(!elastic))
-  {
-    const PrincipalFrame<Points> frames = principal_frame<Points>(trial);
-    for (int point = 0; point < points_per_pack; ++point)
-    {
-      if (elastic[point])
-        continue;
-      Stress stress_old, stress_trial;
-      for (int i = 0; i < 6; ++i)
-      {
-        stress_old[i] = history.stress[i][point];
-        stress_trial[i] = trial[i][point];
-      }
-      PrincipalFrame<double> frame;
-      for (int k = 0; k < 3; ++k)
-      {
-        frame.value[k] = frames.value[k][point];
-        for (int i = 0; i < 3; ++i)
-          frame.direction[k][i] = frames.direction[k][i][point];
-      }
-      const StressUpdate update = material.return_to_surface(stress_old, stress_trial, frame, stiffness[point]);
-      sector[point] = update.sector;
-      if (update.sector == Sector::elastic)
-        continue;
-      for (int i = 0; i < 6; ++i)
-        trial[i][point] = update.stress[i];
-      history.plastic_strain[point] += equivalent_strain(update.plastic_strain);
-      history.dissipated_energy[point] += weighted_volume[point] * update.plastic_dissipation;
-    }
-  }
+    for (int first = 0; first < points_per_pack; first += pack_width)
+      flow_plastically(material, weighted_volume, softness, first, trial, history, sector);
   if (material.depends_on_pressure())
   {
     Points work = dissipated_before - history.dissipated_energy;

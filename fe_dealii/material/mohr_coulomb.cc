@@ -54,6 +54,13 @@ MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters) : parameters_(
   plane_ = 4 * shear_ * (1 + product / 3) + 4 * bulk_ * product;
   right_ = 2 * shear_ * (1 + sum - product / 3) + 4 * bulk_ * product;
   left_ = 2 * shear_ * (1 - sum - product / 3) + 4 * bulk_ * product;
+  const double middle = (2 * bulk_ - 4 * shear_ / 3) * sin_dilation_, minor = middle - 2 * shear_ * (1 - sin_dilation_);
+  plane_middle_ = middle / plane_;
+  plane_minor_ = minor / plane_;
+  right_minor_ = 0.5 * (middle + minor) / (plane_ + right_);
+  left_minor_ = minor / (plane_ + left_);
+  tensile_slope_ = (1 - sin_friction_) / (1 + sin_friction_);
+  tensile_start_ = 2 * cohesion_cos_ / (1 + sin_friction_);
 }
 
 double MohrCoulomb::yield_function(const Stress &stress) const
@@ -76,59 +83,13 @@ StressUpdate MohrCoulomb::update(const Stress &stress_old, const Strain &strain_
 StressUpdate MohrCoulomb::return_to_surface(const Stress &stress_old, const Stress &stress_trial,
                                             const PrincipalFrame<double> &frame, const double stiffness) const
 {
-  const double t1 = frame.value[0], t2 = frame.value[1], t3 = frame.value[2];
-  const double phi = t1 - t3 + (t1 + t3) * sin_friction_ - 2 * cohesion_cos_;
-  if (!(phi > 0)) // a NaN stays in the stress, where it is seen
+  const PrincipalReturn<double> returned = return_principal(frame.value);
+  if (!returned.yields) // a NaN stays in the stress, where it is seen
     return {stress_trial, {}, Sector::elastic, 0};
 
-  const double s = sin_dilation_;
-  // Stress change per unit of multiplier of a plane with flow (1 + s, 0, −1 + s): the middle and the most compressive
-  // component of C : flow.
-  const double middle = (2 * bulk_ - 4 * shear_ / 3) * s;
-  const double minor = 2 * shear_ * (s / 3 - 1) + 2 * bulk_ * s;
-  // The most tensile stress follows from Φ = 0 and the most compressive one, so that Φ = 0 holds to rounding.
-  const auto tensile_of = [&](const double compressive)
-  { return (compressive * (1 - sin_friction_) + 2 * cohesion_cos_) / (1 + sin_friction_); };
-
-  double value[3];
-  Sector sector = Sector::main_plane;
-  const double multiplier = phi / plane_;
-  value[2] = t3 - minor * multiplier;
-  value[1] = t2 - middle * multiplier;
-  value[0] = tensile_of(value[2]);
-  if (!(value[0] >= value[1] && value[1] >= value[2]))
-  {
-    // The plane through the hydrostatic axis along the flow splits what goes to either edge (ibid. 8.2.3). On the side
-    // chosen, the middle stress has overtaken its neighbour, so both multipliers come out positive. Only their sum,
-    // (Φ + Φ2)/(a + b), enters.
-    if ((1 - s) * t1 - 2 * t2 + (1 + s) * t3 >= 0)
-    {
-      sector = Sector::right_edge; // second plane: (σ1, σ2)
-      const double phi_2 = t1 - t2 + (t1 + t2) * sin_friction_ - 2 * cohesion_cos_;
-      value[2] = 0.5 * (t2 + t3 - (middle + minor) * (phi + phi_2) / (plane_ + right_));
-      value[1] = value[2];
-      value[0] = tensile_of(value[2]);
-    }
-    else
-    {
-      sector = Sector::left_edge; // second plane: (σ2, σ3)
-      const double phi_2 = t2 - t3 + (t2 + t3) * sin_friction_ - 2 * cohesion_cos_;
-      value[2] = t3 - minor * (phi + phi_2) / (plane_ + left_);
-      value[0] = tensile_of(value[2]);
-      value[1] = value[0];
-    }
-    // Beyond the apex the surface's mirror image waits. Without dilation the flow rule alone cannot lower the mean
-    // stress; the apex is then the nearest admissible state.
-    if (!(value[0] >= value[2]) && sin_friction_ > 0)
-    {
-      sector = Sector::apex;
-      value[0] = value[1] = value[2] = apex_;
-    }
-  }
-
   StressUpdate result;
-  result.sector = sector;
-  result.stress = from_principal(value, frame.direction);
+  result.sector = static_cast<Sector>(returned.sector);
+  result.stress = from_principal(returned.value, frame.direction);
   Stress relaxed, middle_stress;
   for (int i = 0; i < 6; ++i)
   {

@@ -45,6 +45,15 @@ struct StressUpdate
   double plastic_dissipation; ///< ½(σ_old + σ_new) : Δε_p [J/m³]; closes the balance of a leapfrog exactly
 };
 
+/// Principal stresses after the return, of one stress or of a pack of them.
+template <class Real>
+struct PrincipalReturn
+{
+  math::Mask<Real> yields; ///< the trial stress lies beyond the surface; else the values mean nothing
+  Real value[3];           ///< on the surface, falling [Pa]
+  Real sector;             ///< a Sector as a number
+};
+
 /// Small-strain, perfectly plastic, non-associative Mohr–Coulomb law: with σ1 >= σ2 >= σ3, tension positive,
 ///   Φ = σ1 − σ3 + (σ1 + σ3) sin φ − 2 c cos φ <= 0,   flow along ∂Ψ/∂σ, Ψ = Φ with ψ in place of φ.
 /// Implicit return in principal stresses, closed form: de Souza Neto, Perić, Owen, Computational Methods for
@@ -67,6 +76,11 @@ public:
   /// `frame` is the principal frame of the trial stress, `stiffness` the factor of the moduli in this increment.
   StressUpdate return_to_surface(const Stress &stress_old, const Stress &stress_trial,
                                  const PrincipalFrame<double> &frame, double stiffness = 1) const;
+
+  /// The return by itself: principal trial stresses, falling, to new ones; the principal frame stays. Sectors are
+  /// chosen by masks.
+  template <class Real>
+  PrincipalReturn<Real> return_principal(const Real (&trial)[3]) const;
 
   /// Derivative of update()'s stress by the strain increment; exact, since the return is linear in each sector. Not
   /// symmetric where dilation and friction angle differ.
@@ -143,6 +157,50 @@ private:
   double apex_;                                       // c cot φ
   double plane_;                                      // a in the reference: ∂Φ : C : ∂Ψ of one plane with itself
   double right_, left_;                               // b: of the main plane with its neighbour across an edge
+  // Stress changes per Φ on the main plane, of the middle and the most compressive component, and per Φ + Φ2 of the
+  // most compressive one on the edges.
+  double plane_middle_, plane_minor_, right_minor_, left_minor_;
+  double tensile_slope_, tensile_start_; // σ1 = slope σ3 + start where Φ = 0
 };
+
+template <class Real>
+PrincipalReturn<Real> MohrCoulomb::return_principal(const Real (&trial)[3]) const
+{
+  const Real &t1 = trial[0], &t2 = trial[1], &t3 = trial[2];
+  const double f = sin_friction_, s = sin_dilation_;
+  PrincipalReturn<Real> result;
+  const Real phi = (1 + f) * t1 - (1 - f) * t3 - 2 * cohesion_cos_;
+  result.yields = phi > 0.;
+
+  // The most tensile stress follows from Φ = 0 and the most compressive one, so that Φ = 0 holds to rounding.
+  const Real minor = t3 - plane_minor_ * phi, middle = t2 - plane_middle_ * phi,
+             major = tensile_slope_ * minor + tensile_start_;
+  const math::Mask<Real> on_plane = (major >= middle) & (middle >= minor);
+
+  // The plane through the hydrostatic axis along the flow splits what goes to either edge (ibid. 8.2.3). On the side
+  // chosen, the middle stress has overtaken its neighbour, so both multipliers come out positive. Only their sum,
+  // (Φ + Φ2)/(a + b), enters.
+  const math::Mask<Real> is_right = (1 - s) * t1 - 2. * t2 + (1 + s) * t3 >= 0.;
+  const Real greater = math::select(is_right, t1, t2), smaller = math::select(is_right, t2, t3);
+  const Real both = phi + ((1 + f) * greater - (1 - f) * smaller - 2 * cohesion_cos_);
+  const Real on_right = 0.5 * (t2 + t3) - right_minor_ * both, on_left = t3 - left_minor_ * both;
+  const Real edge_minor = math::select(is_right, on_right, on_left);
+  const Real edge_major = tensile_slope_ * edge_minor + tensile_start_;
+
+  // Beyond the apex the surface's mirror image waits. Without dilation the flow rule alone cannot lower the mean
+  // stress; the apex is then the nearest admissible state. Without friction the two planes are parallel.
+  const math::Mask<Real> is_apex = !(on_plane | (edge_major >= edge_minor));
+  const Real apex_or(apex_);
+  result.value[2] = math::select(is_apex, apex_or, math::select(on_plane, minor, edge_minor));
+  result.value[0] = math::select(is_apex, apex_or, math::select(on_plane, major, edge_major));
+  result.value[1] = math::select(on_plane, middle, math::select(is_right, result.value[2], result.value[0]));
+
+  const auto number = [](const Sector sector) { return Real(static_cast<double>(sector)); };
+  const Real edge = math::select(is_right, number(Sector::right_edge), number(Sector::left_edge));
+  const Real beyond = math::select(is_apex, number(Sector::apex), edge);
+  const Real surface = math::select(on_plane, number(Sector::main_plane), beyond);
+  result.sector = math::select(result.yields, surface, number(Sector::elastic));
+  return result;
+}
 
 } // namespace bergamo::fe
