@@ -27,12 +27,12 @@ Real radii_change(const Pose<Real> &body, const Vector3<Real> &normal, const Vec
 
 /// Inverse of the turn of the normal relative to a body [1/rad] after which a contact followed with the radii held may
 /// have an error of a share of its overlap: R kappa theta^3 / 6, with kappa the relative change of the radii; and no
-/// more than a tenth of the radii may be gone. Turns of both bodies add up.
+/// more than 3 % of the radii may be gone. Turns of both bodies add up.
 /// @param change radii_change(); @param radii of the body; @param error allowed [m], > 0
 template <class Real>
 Real turn_wear(const Real &change, const CurvatureRadii<Real> &radii, const Real &error)
 {
-  constexpr double largest_change = 0.1;
+  constexpr double largest_change = 0.03;
   const Real cube = radii.norm() * change / (Real(6.) * error);
   return math::max(math::exp(math::log(cube) * Real(1. / 3.)), change * Real(1. / largest_change));
 }

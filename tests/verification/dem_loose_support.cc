@@ -52,7 +52,15 @@ enum class Rest
   three_spheres
 };
 
-/// A grain on its support, touching it by next to nothing; the free grain is the last one.
+std::size_t free_grain(const Simulation &s)
+{
+  for (std::size_t i = 0; i < s.particles.size(); ++i)
+    if (!s.particles.is_fixed(i))
+      return i;
+  return 0;
+}
+
+/// A grain on its support, which bears its weight.
 Simulation resting(const SimulationParameters &p, const Rest rest, const Superquadric &shape,
                    const Quaternion &orientation)
 {
@@ -75,7 +83,7 @@ Simulation resting(const SimulationParameters &p, const Rest rest, const Superqu
     }
   }
   grains.add(shape, density, Vec3(0., 0., 5. * radius), orientation);
-  // Down by bisection until it touches.
+  const double weight = grains.mass.back() * gravity;
   double low = 0., high = 5. * radius;
   const auto at = [&](const double height)
   {
@@ -88,17 +96,9 @@ Simulation resting(const SimulationParameters &p, const Rest rest, const Superqu
     const double middle = 0.5 * (low + high);
     Simulation trial = at(middle);
     trial.compute_forces();
-    (trial.contacts.n_touching() + trial.contacts.n_touching_walls() > 0 ? low : high) = middle;
+    (trial.particles.force[free_grain(trial)][2] > weight ? low : high) = middle;
   }
   return at(low);
-}
-
-std::size_t free_grain(const Simulation &s)
-{
-  for (std::size_t i = 0; i < s.particles.size(); ++i)
-    if (!s.particles.is_fixed(i))
-      return i;
-  return 0;
 }
 
 /// Angle between the grain's shortest axis and the vertical [rad].
@@ -113,8 +113,9 @@ double lean(const Simulation &s)
 TEST_CASE("a grain that leans a little does not rock itself up, however its contacts are followed")
 {
   const Threads one_thread(1);
-  // Let go leaning by 0.003 rad, with friction and a dashpot: the energy only falls, so the lean never exceeds what it
-  // began with, but for the bounce of letting go: an overlap over a radius, 1e-4.
+  // Let go leaning by 0.003 rad, with friction and a dashpot: the energy only falls. On a plane the lean never exceeds
+  // what it began with, but for the jolt of letting go: an overlap over a radius, 1e-4. On a sphere both ways of
+  // rocking share the energy: there the second half of the time shows no more than the first.
   for (const Superquadric &shape : {ellipsoid, rounded})
     for (const Rest rest : {Rest::plane, Rest::one_sphere})
       for (const double tolerance : {0., 1e-4, 1e-2})
@@ -122,15 +123,18 @@ TEST_CASE("a grain that leans a little does not rock itself up, however its cont
         SimulationParameters p = parameters(0.3, 0.9);
         p.contact.overlap_tolerance = tolerance;
         Simulation s = resting(p, rest, shape, leaning(0.003));
-        double largest = 0.;
-        for (int n = 0; n < (tolerance > 0. ? 500000 : 100000); ++n)
+        double largest[2] = {0., 0.};
+        constexpr int n_steps = 500000;
+        for (int n = 0; n < n_steps; ++n)
         {
           s.step();
           if (n % 50 == 0)
-            largest = std::max(largest, lean(s));
+            largest[2 * n / n_steps] = std::max(largest[2 * n / n_steps], lean(s));
         }
         CAPTURE(shape.eps1, static_cast<int>(rest), tolerance);
-        CHECK(largest < 0.0031);
+        if (rest == Rest::plane)
+          CHECK(largest[0] < 0.0031);
+        CHECK(largest[1] < 1.02 * largest[0]);
         CHECK(s.contacts.n_undecided() == 0);
       }
 }
@@ -230,7 +234,7 @@ TEST_CASE("a loosely supported grain that rocks, rolls or spins never gains ener
         std::printf("%d %.1f %.1f %s %.1e %.1e   %.1e %.1e\n", static_cast<int>(rest), shape.half_axes[0] / radius,
                     shape.eps1, push.name, open[0], open[1], e.curvature_work / start, e.search_work / start);
         CHECK(open[1] < 1e-5);
-        CHECK(open[1] < std::max(0.4 * open[0], 1e-7));
+        CHECK(open[1] < std::max(0.75 * open[0], 1e-7)); // of first order where grains begin to slip
         CHECK(e.search_work < 1e-3 * start);
         CHECK(e.friction_loss >= 0.);
         CHECK(e.viscous_loss > 0.);
