@@ -18,10 +18,11 @@ namespace bergamo::dem
 template <class Real>
 struct ContactTurn
 {
-  Vector2<Real> tilt;  ///< of the normal, in the tangent frame [rad]
-  Real spin;           ///< of the tangent frame about the normal: the mean of both bodies [rad]
-  Vector3<Real> shift; ///< of the contact point [m]
-  Real wear;           ///< of the contact's budget
+  Vector2<Real> tilt;                        ///< of the normal, in the tangent frame [rad]
+  Real spin;                                 ///< of the tangent frame about the normal: the mean of both bodies [rad]
+  Vector3<Real> shift;                       ///< of the contact point [m]
+  Real wear;                                 ///< of the contact's budget
+  ContactMotion<Real, Vector2<Real>> motion; ///< in the step
 };
 
 /// Sum of the magnitudes: a bound of the length that takes no root.
@@ -37,34 +38,32 @@ inline constexpr double largest_turn = 0.01;
 /// Budgets used up in one step beyond which nothing is followed: with 64 times the error it would say nothing.
 inline constexpr double largest_wear = 4.;
 
-/// The displacement as the frame half way between this step's and the last one's sees it.
+/// A contact's tangent frame after its turn, of second order in the step.
 template <class Real>
-ContactMotion<Real, Vector2<Real>> motion_in_frame(const Vector3<Real> &normal, const TangentFrameOf<Real> &frame,
-                                                   const ContactTurn<Real> &turn, const Vector3<Real> &displacement)
+struct TurnedFrame
 {
-  const Real half(0.5), apart = normal.dot(displacement);
-  const Vector2<Real> beside = in_frame(frame, displacement);
-  return {-apart - half * turn.tilt.dot(beside),
-          beside - (turn.tilt * apart + Vector2<Real>(-beside[1], beside[0]) * turn.spin) * half};
-}
+  Vector3<Real> normal, axis;
 
-/// Turns a contact's normal and axis. Of second order in the step; they stay orthonormal to rounding.
-template <class Real>
-void turn_frame(ContactState<Real> &s, const TangentFrameOf<Real> &frame, const ContactTurn<Real> &turn)
-{
-  const Vector2<Real> &tilt = turn.tilt;
-  const Real half_spin = Real(0.5) * turn.spin;
-  const Vector2<Real> halfway(tilt[0] - half_spin * tilt[1], tilt[1] + half_spin * tilt[0]);
-  const Vector3<Real> normal = s.normal + from_frame(frame, halfway);
-  const Vector3<Real> axis = s.axis - s.normal * tilt[0] + frame.col(1) * (turn.spin - Real(0.5) * tilt[0] * tilt[1]);
-  // Of lengths of nearly one: the series of 1/sqrt(1 + x), whose error is 5 x^3 / 16.
-  const auto unit = [](const Vector3<Real> &v) -> Vector3<Real>
+  TurnedFrame(const Vector3<Real> &old_normal, const TangentFrameOf<Real> &old, const ContactTurn<Real> &turn)
   {
-    const Real square = v.squaredNorm();
-    return v * (Real(1.875) + square * (Real(0.375) * square - Real(1.25)));
-  };
-  s.normal = unit(normal);
-  s.axis = unit(axis - s.normal * s.normal.dot(axis));
+    // a + w x a + w x (w x a) / 2, of a length of 1 to w^4 / 8
+    const Real half(0.5), x = turn.tilt[0], y = turn.tilt[1], z = turn.spin;
+    normal = old_normal * (Real(1.) - half * (x * x + y * y)) + old.col(0) * (x - half * z * y) +
+             old.col(1) * (y + half * z * x);
+    axis = old.col(0) * (Real(1.) - half * (x * x + z * z)) + old.col(1) * (z - half * x * y) -
+           old_normal * (x + half * z * y);
+  }
+};
+
+/// What a frame half way between the last step's and this one's sees of a displacement.
+/// @param old displacement along the axes of the last step's frame and its normal [m]
+template <class Real>
+ContactMotion<Real, Vector2<Real>> seen_halfway(const Vector2<Real> &tilt, const Real &spin, const Vector3<Real> &old)
+{
+  const Real half(0.5);
+  const Vector2<Real> beside(old[0], old[1]);
+  return {-old[2] - half * tilt.dot(beside),
+          beside - (tilt * old[2] + Vector2<Real>(-beside[1], beside[0]) * spin) * half};
 }
 
 } // namespace bergamo::dem

@@ -25,40 +25,37 @@ struct Followed
 template <class Real, class Motion>
 Followed<Real> follow(ContactState<Real> &state, const Motion &motion, const ContactLaw &law, Losses<Real> &losses)
 {
-  ContactState<Real> next = state;
+  using math::select;
   TangentFrameOf<Real> frame;
   frame << state.axis, state.second_axis();
-  const Vector3<Real> at_old_point = motion.displacement(state.point);
-  const ContactTurn<Real> turn = motion.turn(state, frame, at_old_point);
-  const Vector3<Real> displacement = at_old_point + motion.displacement_by(turn.shift * Real(0.5));
-  const ContactMotion<Real, Vector2<Real>> seen = motion_in_frame(state.normal, frame, turn, displacement);
-  turn_frame(next, frame, turn);
-  next.point += turn.shift;
-  next.overlap += seen.approach;
-  next.budget -= turn.wear;
+  const ContactTurn<Real> turn = motion.turn(state, frame);
+  const TurnedFrame<Real> turned(state.normal, frame, turn);
+  const Real overlap = state.overlap + turn.motion.approach, budget = state.budget - turn.wear;
   // Whatever is no number is lost: the search mends it, or its force stops the run.
   const math::Mask<Real> is_lost =
-                             !(next.overlap > Real(0.)) ||
+                             !(overlap > Real(0.)) ||
                              !(turn.tilt.squaredNorm() + turn.spin * turn.spin < Real(largest_turn * largest_turn)) ||
                              !(turn.wear < Real(largest_wear)),
-                         is_due = is_lost || !(next.budget >= Real(0.));
-  next.overlap = math::select(is_lost, state.overlap, next.overlap);
+                         is_due = is_lost || !(budget >= Real(0.));
 
   Losses<Real> lost;
-  advance_contact(next, law, state.overlap, seen, motion.time_step, lost);
-  losses += losses_where<Real>(!is_lost, lost);
-  if (math::any(is_lost)) // seldom
-  {
-    const auto keep = [&](auto &field, const auto &old) { field = math::select<Real>(is_lost, old, field); };
-    keep(next.normal, state.normal);
-    keep(next.axis, state.axis);
-    keep(next.point, state.point);
-    keep(next.forces.tangential, state.forces.tangential);
-    next.forces.normal = math::select(is_lost, state.forces.normal, next.forces.normal);
-    next.budget = math::select(is_lost, Real(next.lost), next.budget);
-  }
-  state = next;
-  return {is_due, math::select<Real>(is_due, Vector3<Real>(Real(0.), Real(0.), Real(0.)), state.force())};
+  typename ContactState<Real>::Forces forces = state.forces;
+  advance_forces(law, state.stiffness.normal, state.tangential_stiffness(), state.reduced_mass,
+                 math::sqrt(select(is_lost, state.overlap, overlap)), math::sqrt(state.overlap), turn.motion,
+                 motion.time_step, forces, lost);
+  losses.friction += select(is_lost, Real(0.), Real(state.weight * lost.friction));
+  losses.viscous += select(is_lost, Real(0.), Real(state.weight * lost.viscous));
+  losses.quadrature += select(is_lost, Real(0.), Real(state.weight * lost.quadrature));
+
+  const auto take = [&](auto &field, const auto &next) { field = select<Real>(is_lost, field, next); };
+  take(state.normal, turned.normal);
+  take(state.axis, turned.axis);
+  take(state.point, Vector3<Real>(state.point + turn.shift));
+  take(state.forces.tangential, forces.tangential);
+  state.forces.normal = select(is_lost, state.forces.normal, forces.normal);
+  state.overlap = select(is_lost, state.overlap, overlap);
+  state.budget = select(is_lost, Real(state.lost), budget);
+  return {is_due, select<Real>(is_due, Vector3<Real>(Real(0.), Real(0.), Real(0.)), state.force())};
 }
 
 /// Follows one block of contacts and adds what they give. @return lanes to be searched anew, which add nothing

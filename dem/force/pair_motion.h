@@ -12,9 +12,9 @@ namespace bergamo::dem
 template <class Real>
 struct PairMotion
 {
-  Vector3<Real> half_line;                 ///< half of x2 - x1 at this step [m]
-  Vector3<Real> velocity;                  ///< v2 - v1 of the drift [m/s]
-  Vector3<Real> spin_sum, spin_difference; ///< w1 + w2, w2 - w1 [1/s]
+  Vector3<Real> half_line;    ///< half of x2 - x1 at this step [m]
+  Vector3<Real> velocity;     ///< v2 - v1 of the drift [m/s]
+  Vector3<Real> spin1, spin2; ///< [1/s]
   double time_step;
 
   /// @param first, second grains of a lane: first(lane), second(lane)
@@ -29,9 +29,8 @@ struct PairMotion
     };
     half_line = (load(p.position, second) - load(p.position, first)) * Real(0.5);
     velocity = load(p.drift_velocity, second) - load(p.drift_velocity, first);
-    const Vector3<Real> spin1 = load(p.angular_velocity, first), spin2 = load(p.angular_velocity, second);
-    spin_sum = spin1 + spin2;
-    spin_difference = spin2 - spin1;
+    spin1 = load(p.angular_velocity, first);
+    spin2 = load(p.angular_velocity, second);
     if (!p.cell.is_periodic())
       return;
     const auto load_image = [&](const auto &values)
@@ -48,37 +47,41 @@ struct PairMotion
   /// Motion of body 2 relative to body 1 at a contact point [m]. @param point minus the midpoint of the centres [m]
   Vector3<Real> displacement(const Vector3<Real> &point) const
   {
-    return (velocity + spin_difference.cross(point) - spin_sum.cross(middle())) * Real(time_step);
-  }
-
-  /// What a step of the point adds to the displacement [m].
-  Vector3<Real> displacement_by(const Vector3<Real> &step) const
-  {
-    return spin_difference.cross(step) * Real(time_step);
+    const Vector3<Real> line = middle();
+    return (velocity + spin2.cross(point - line) - spin1.cross(point + line)) * Real(time_step);
   }
 
   /// Mean rotation of both bodies about a unit vector [rad].
-  Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin_sum) * Real(0.5 * time_step); }
+  Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin1 + spin2) * Real(0.5 * time_step); }
 
   /// How the contact turns and moves with the step: the common normal of both surfaces, by their curvatures.
-  /// @param frame of the last step; @param displacement there
-  ContactTurn<Real> turn(const ContactState<Real> &s, const TangentFrameOf<Real> &frame,
-                         const Vector3<Real> &displacement) const
+  /// @param frame of the last step
+  ContactTurn<Real> turn(const ContactState<Real> &s, const TangentFrameOf<Real> &frame) const
   {
-    const Real half(0.5 * time_step);
-    const Vector2<Real> sum = in_frame<Real>(frame, spin_sum) * half,
-                        difference = in_frame<Real>(frame, spin_difference) * half;
-    // w x n in the frame
-    const Vector2<Real> roll1(sum[1] - difference[1], difference[0] - sum[0]),
-        roll2(sum[1] + difference[1], -sum[0] - difference[0]);
-    const Vector2<Real> asked = in_frame(frame, displacement) + s.radii1 * roll1 + s.radii2 * roll2;
-    const Vector2<Real> tilt = (s.radii1 + s.radii2).solve(asked);
-    const Vector2<Real> turn1 = tilt - roll1, turn2 = tilt - roll2;
-    const Real twist = math::abs(s.normal.dot(spin_difference) * half);
-    const Vector2<Real> beside = (s.radii1 * turn1 - s.radii2 * turn2) * Real(0.5);
-    return {tilt, turn_about(s.normal),
-            (spin_sum.cross(s.point) - spin_difference.cross(middle())) * half + from_frame(frame, beside),
-            s.wear1 * (magnitude(turn1) + twist) + s.wear2 * (magnitude(turn2) + twist)};
+    const Real dt(time_step), half(0.5);
+    const Vector3<Real> line = middle(), turn1 = spin1 * dt, turn2 = spin2 * dt;
+    const Vector3<Real> of_arm1 = turn1.cross(s.point + line), of_arm2 = turn2.cross(s.point - line);
+    const Vector3<Real> displacement = velocity * dt + of_arm2 - of_arm1;
+    const Vector2<Real> about1 = in_frame(frame, turn1), about2 = in_frame(frame, turn2);
+    const Real about_normal1 = s.normal.dot(turn1), about_normal2 = s.normal.dot(turn2);
+    const Vector2<Real> roll1(about1[1], -about1[0]), roll2(about2[1], -about2[0]); // turn x normal
+    Vector3<Real> seen;
+    seen << in_frame(frame, displacement), s.normal.dot(displacement);
+
+    ContactTurn<Real> turn;
+    turn.tilt = (s.radii1 + s.radii2).solve(Vector2<Real>(seen[0], seen[1]) + s.radii1 * roll1 + s.radii2 * roll2);
+    turn.spin = half * (about_normal1 + about_normal2);
+    const Vector2<Real> of_body1 = turn.tilt - roll1, of_body2 = turn.tilt - roll2;
+    turn.shift =
+        (of_arm1 + of_arm2) * half + from_frame<Real>(frame, (s.radii1 * of_body1 - s.radii2 * of_body2) * half);
+    const Real twist = math::abs(half * (about_normal2 - about_normal1));
+    turn.wear = s.wear1 * (magnitude(of_body1) + twist) + s.wear2 * (magnitude(of_body2) + twist);
+    const Vector3<Real> further = (turn2 - turn1).cross(turn.shift) * half; // at the point of the middle of the step
+    seen[0] += frame.col(0).dot(further);
+    seen[1] += frame.col(1).dot(further);
+    seen[2] += s.normal.dot(further);
+    turn.motion = seen_halfway<Real>(turn.tilt, turn.spin, seen);
+    return turn;
   }
 };
 

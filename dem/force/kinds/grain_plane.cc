@@ -24,19 +24,23 @@ struct WallMotion
     return (velocity - spin.cross(point)) * Real(time_step);
   }
 
-  /// What a step of the point adds to the displacement [m].
-  Vector3<Real> displacement_by(const Vector3<Real> &step) const { return spin.cross(step) * Real(-time_step); }
-
   /// As PairMotion::turn(): the plane's radii are infinite, so the normal is that of the plane.
-  ContactTurn<Real> turn(const ContactState<Real> &s, const TangentFrameOf<Real> &frame,
-                         const Vector3<Real> &displacement) const
+  ContactTurn<Real> turn(const ContactState<Real> &s, const TangentFrameOf<Real> &frame) const
   {
-    const Vector3<Real> rotation = spin * Real(time_step);
-    const Vector2<Real> about = in_frame(frame, rotation), roll(about[1], -about[0]);
-    const Real half_spin = Real(0.5) * s.normal.dot(rotation); // the mean of both bodies
-    const Vector3<Real> shift =
-        rotation.cross(s.point) - from_frame(frame, s.radii1 * roll) + s.normal * (Real(0.5) * s.normal.dot(displacement));
-    return {Vector2<Real>(Real(0.), Real(0.)), half_spin, shift, s.wear1 * (magnitude(roll) + math::abs(half_spin))};
+    const Real half(0.5);
+    const Vector3<Real> rotation = spin * Real(time_step), of_arm = rotation.cross(s.point);
+    const Vector3<Real> at_old_point = velocity * Real(time_step) - of_arm;
+    const Vector2<Real> about = in_frame(frame, rotation), roll(about[1], -about[0]); // rotation x normal
+    ContactTurn<Real> turn;
+    turn.tilt = {Real(0.), Real(0.)};
+    turn.spin = half * s.normal.dot(rotation); // the mean of both bodies
+    turn.shift = of_arm - from_frame<Real>(frame, s.radii1 * roll) + s.normal * (half * s.normal.dot(at_old_point));
+    turn.wear = s.wear1 * (magnitude(roll) + math::abs(turn.spin));
+    const Vector3<Real> displacement = at_old_point - rotation.cross(turn.shift) * half;
+    Vector3<Real> seen;
+    seen << in_frame(frame, displacement), s.normal.dot(displacement);
+    turn.motion = seen_halfway<Real>(turn.tilt, turn.spin, seen);
+    return turn;
   }
 };
 
