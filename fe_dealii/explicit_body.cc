@@ -104,4 +104,11 @@ std::vector<unsigned int> ExplicitBody::boundary_nodes(const unsigned int bounda
   return nodes;
 }
 
+ExplicitBody make_box_body(const BoxMeshParameters &box, const ExplicitBodyParameters &parameters)
+{
+  dealii::Triangulation<3> mesh;
+  make_box(box, mesh);
+  return ExplicitBody(mesh, parameters);
+}
+
 } // namespace bergamo::fe

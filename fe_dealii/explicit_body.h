@@ -2,6 +2,7 @@
 
 #include "fe_dealii/material/initial_stress.h"
 #include "fe_dealii/material/material.h"
+#include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/moving_body.h"
 
 #include <array>
@@ -64,5 +65,8 @@ private:
   std::unique_ptr<Mesh> mesh_;
   Material material_;
 };
+
+/// A body on the mesh that make_box() makes. Throws ConfigError for what either does not allow.
+ExplicitBody make_box_body(const BoxMeshParameters &box, const ExplicitBodyParameters &parameters);
 
 } // namespace bergamo::fe

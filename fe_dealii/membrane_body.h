@@ -45,7 +45,7 @@ public:
   const dealii::DoFHandler<2, 3> &dof_handler() const;
   MembraneState membrane_state_of(const std::size_t element) const
   {
-    return membranes_->membrane_state_of(element, displacement_of_stress().begin());
+    return membranes_->membrane_state_of(element, displacement_of_stress().data());
   }
 
 private:

@@ -20,11 +20,6 @@ constexpr std::size_t block_nodes = 512;
 constexpr std::size_t few_elements = 256, few_nodes = 256;
 constexpr std::size_t block_elements = 32; // in one virtual call
 
-std::span<double> doubles_of(dealii::Vector<double> &vector)
-{
-  return {vector.begin(), vector.size()};
-}
-
 } // namespace
 
 void MassForces::validate(const std::string &body) const
@@ -49,9 +44,9 @@ MovingBody::MovingBody(std::string name, std::vector<std::array<double, 3>> node
             }};
 
   const std::size_t n_dofs = 3 * n_nodes();
-  for (dealii::Vector<double> *vector : {&displacement_, &velocity_, &internal_force_, &external_force_,
-                                         &reaction_force_, &mass_, &displacement_of_stress_})
-    vector->reinit(n_dofs);
+  for (std::vector<double> *vector : {&displacement_, &velocity_, &internal_force_, &external_force_, &reaction_force_,
+                                      &mass_, &displacement_of_stress_})
+    vector->assign(n_dofs, 0.);
   constraint_of_dof_.assign(n_dofs, -1);
   gather_mass();
 }
@@ -63,9 +58,9 @@ void MovingBody::gather_mass()
 {
   progress_.has_forces = 0; // elements of other masses have other forces
   scale_mass();
-  const auto gather = [&](dealii::Vector<double> &total, const auto &factor)
+  const auto gather = [&](std::vector<double> &total, const auto &factor)
   {
-    total = 0;
+    total.assign(mass_.size(), 0.);
     std::vector<double> mass(elements_->nodes_per_element());
     for (std::size_t e = 0; e < n_elements(); ++e)
     {
@@ -78,7 +73,6 @@ void MovingBody::gather_mass()
   gather(mass_, [&](const std::size_t e) { return mass_factor(e); });
   if (mass_factor_.empty())
     return;
-  true_mass_.reinit(mass_);
   gather(true_mass_, [](std::size_t) { return 1.; });
 }
 
@@ -95,7 +89,7 @@ void MovingBody::scale_mass()
   parallel_for(factor.size(),
                [&](const std::size_t e)
                {
-                 const double eigenvalue = largest_eigenvalue(*elements_, e, displacement_.begin());
+                 const double eigenvalue = largest_eigenvalue(*elements_, e, displacement_.data());
                  factor[e] = std::max(1., eigenvalue / bearable * (1 + rounding));
                });
   double true_mass = 0;
@@ -128,8 +122,8 @@ void MovingBody::compute_internal_force()
   progress_.has_forces = 0;
   const std::size_t n_elements = this->n_elements();
   const std::size_t n_blocks = (n_elements + block_elements - 1) / block_elements;
-  const double *const now = displacement_.begin();
-  double *const before = displacement_of_stress_.begin();
+  const double *const now = displacement_.data();
+  double *const before = displacement_of_stress_.data();
   const std::span<const double> element_force = elements_->forces();
   Collected<std::size_t> inverted;
   parallel_ranges(n_blocks, few_elements / 2 / block_elements,
@@ -247,7 +241,7 @@ MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t 
   // are alike.
   const double to_before = (kick.before - kick.time) / kick.time, to_after = (kick.time - kick.after) / kick.time;
   const bool changes = kick.before != kick.after;
-  const dealii::Vector<double> &heavy_mass = this->heavy_mass();
+  const std::vector<double> &heavy_mass = this->heavy_mass();
   KickSums sums;
   for (std::size_t node = begin; node < end; ++node)
     for (std::size_t i = 0; i < 3; ++i)
@@ -411,12 +405,12 @@ std::vector<std::pair<std::string, std::span<double>>> MovingBody::state()
 {
   static_assert(sizeof(Ledger) % sizeof(double) == 0 && sizeof(Progress) % sizeof(double) == 0);
   std::vector<std::pair<std::string, std::span<double>>> result{
-      {"displacement", doubles_of(displacement_)},
-      {"displacement_of_stress", doubles_of(displacement_of_stress_)},
-      {"velocity", doubles_of(velocity_)},
-      {"internal_force", doubles_of(internal_force_)},
-      {"external_force", doubles_of(external_force_)},
-      {"reaction_force", doubles_of(reaction_force_)},
+      {"displacement", displacement_},
+      {"displacement_of_stress", displacement_of_stress_},
+      {"velocity", velocity_},
+      {"internal_force", internal_force_},
+      {"external_force", external_force_},
+      {"reaction_force", reaction_force_},
       {"constraint_velocity", {constraint_velocity_.data(), constraint_velocity_.size()}},
       {"ledger", {reinterpret_cast<double *>(&ledger_), sizeof(Ledger) / sizeof(double)}},
       {"progress", {reinterpret_cast<double *>(&progress_), sizeof(Progress) / sizeof(double)}}};

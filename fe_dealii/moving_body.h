@@ -5,8 +5,6 @@
 #include "fe_dealii/body_energy.h"
 #include "fe_dealii/element/element_group.h"
 
-#include <deal.II/lac/vector.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -79,7 +77,7 @@ public:
   /// dofs, accounts that start anew. Call after compute_internal_force().
   void rest();
 
-  void clear_external_force() { external_force_ = 0; }
+  void clear_external_force() { external_force_.assign(external_force_.size(), 0.); }
   /// @}
 
   /// @name Prescribed velocities
@@ -110,15 +108,15 @@ public:
 
   /// @name Nodal vectors, length 3 * n_nodes()
   /// @{
-  dealii::Vector<double> &displacement() { return displacement_; }     ///< [m]
-  dealii::Vector<double> &velocity() { return velocity_; }             ///< half step [m/s]
-  dealii::Vector<double> &external_force() { return external_force_; } ///< [N], without gravity
-  const dealii::Vector<double> &displacement() const { return displacement_; }
-  const dealii::Vector<double> &velocity() const { return velocity_; }
-  const dealii::Vector<double> &external_force() const { return external_force_; }
-  const dealii::Vector<double> &internal_force() const { return internal_force_; } ///< [N]
-  const dealii::Vector<double> &reaction_force() const { return reaction_force_; } ///< [N], zero at free dofs
-  const dealii::Vector<double> &mass() const { return mass_; } ///< inertia, lumped, share and scaling included [kg]
+  std::span<double> displacement() { return displacement_; }     ///< [m]
+  std::span<double> velocity() { return velocity_; }             ///< half step [m/s]
+  std::span<double> external_force() { return external_force_; } ///< [N], without gravity
+  std::span<const double> displacement() const { return displacement_; }
+  std::span<const double> velocity() const { return velocity_; }
+  std::span<const double> external_force() const { return external_force_; }
+  std::span<const double> internal_force() const { return internal_force_; } ///< [N]
+  std::span<const double> reaction_force() const { return reaction_force_; } ///< [N], zero at free dofs
+  std::span<const double> mass() const { return mass_; } ///< inertia, lumped, share and scaling included [kg]
   /// Force of gravity on a dof, of the true mass whatever its scaling [N].
   double weight(const std::size_t dof) const { return heavy_mass()[dof] * forces_.gravity[dof % 3]; }
   /// @}
@@ -138,7 +136,7 @@ public:
   double damping() const { return forces_.damping; }                       ///< α [1/s]
   ElementState state_of(const std::size_t element) const
   {
-    return elements_->state_of(element, displacement_of_stress_.begin());
+    return elements_->state_of(element, displacement_of_stress_.data());
   }
   Stress average_stress() const;                                   ///< volume average over the body, whatever the share
   std::array<double, 3> present_centre(std::size_t element) const; ///< mean of its nodes' places [m]
@@ -166,12 +164,12 @@ protected:
   /// Masses of the nodes from those of the elements; again after these have changed.
   void gather_mass();
 
-  const dealii::Vector<double> &displacement_of_stress() const { return displacement_of_stress_; }
+  std::span<const double> displacement_of_stress() const { return displacement_of_stress_; }
   const std::string &name() const { return name_; }
 
 private:
   void scale_mass();
-  const dealii::Vector<double> &heavy_mass() const { return mass_factor_.empty() ? mass_ : true_mass_; }
+  const std::vector<double> &heavy_mass() const { return mass_factor_.empty() ? mass_ : true_mass_; }
   [[noreturn]] void report_inversion(std::size_t element) const;
 
   std::string name_;
@@ -181,11 +179,11 @@ private:
   std::unique_ptr<ElementGroup> elements_;
   Rows<unsigned int> slots_; // places of each node in elements_->nodes(), ascending
 
-  dealii::Vector<double> displacement_, velocity_, internal_force_, external_force_, reaction_force_, mass_;
-  dealii::Vector<double> displacement_of_stress_; // where the stresses were computed last
+  std::vector<double> displacement_, velocity_, internal_force_, external_force_, reaction_force_, mass_;
+  std::vector<double> displacement_of_stress_; // where the stresses were computed last
 
-  std::vector<double> mass_factor_;  // of the elements; none where nothing is scaled
-  dealii::Vector<double> true_mass_; // without the factors; none where nothing is scaled
+  std::vector<double> mass_factor_; // of the elements; none where nothing is scaled
+  std::vector<double> true_mass_;   // without the factors; none where nothing is scaled
   MassScaling mass_scaling_;
 
   std::vector<int> constraint_of_dof_; // −1: free

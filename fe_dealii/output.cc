@@ -6,10 +6,12 @@
 #include "fe_dealii/membrane_body.h"
 
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>
 
 #include <cmath>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,11 @@ void write_whole(const std::filesystem::path &path, const Write &write)
   }
 }
 
+dealii::Vector<double> dealii_vector(const std::span<const double> values)
+{
+  return {values.begin(), values.end()};
+}
+
 template <int dim, class Body>
 void write(const Body &body, const std::vector<std::string> &names, const std::vector<dealii::Vector<float>> &cell_data,
            const std::filesystem::path &path)
@@ -55,9 +62,10 @@ void write(const Body &body, const std::vector<std::string> &names, const std::v
   output.attach_dof_handler(body.dof_handler());
   const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> vector_field(
       3, dealii::DataComponentInterpretation::component_is_part_of_vector);
-  output.add_data_vector(body.displacement(), std::vector<std::string>(3, "displacement"), Output::type_dof_data,
+  const auto displacement = dealii_vector(body.displacement()), velocity = dealii_vector(body.velocity());
+  output.add_data_vector(displacement, std::vector<std::string>(3, "displacement"), Output::type_dof_data,
                          vector_field);
-  output.add_data_vector(body.velocity(), std::vector<std::string>(3, "velocity"), Output::type_dof_data, vector_field);
+  output.add_data_vector(velocity, std::vector<std::string>(3, "velocity"), Output::type_dof_data, vector_field);
   for (std::size_t k = 0; k < cell_data.size(); ++k)
     output.add_data_vector(cell_data[k], names[k], Output::type_cell_data);
   output.build_patches();

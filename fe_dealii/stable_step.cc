@@ -18,7 +18,7 @@ StableStep stable_step(const MovingBody &body)
   std::vector<double> eigenvalue(body.n_elements());
   parallel_for(
       eigenvalue.size(), [&](const std::size_t e)
-      { eigenvalue[e] = largest_eigenvalue(body.elements(), e, body.displacement().begin()) / body.mass_factor(e); });
+      { eigenvalue[e] = largest_eigenvalue(body.elements(), e, body.displacement().data()) / body.mass_factor(e); });
   const auto largest = std::max_element(eigenvalue.begin(), eigenvalue.end());
   return {2 / std::sqrt(*largest), *largest, std::size_t(largest - eigenvalue.begin())};
 }

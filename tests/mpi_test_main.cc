@@ -1,11 +1,11 @@
 // Runs the tests of what Trilinos solves, which needs MPI.
 #define CATCH_CONFIG_RUNNER
-#include <catch2/catch.hpp>
+#include "fe_dealii/mpi_session.h"
 
-#include <deal.II/base/mpi.h>
+#include <catch2/catch.hpp>
 
 int main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bergamo::fe::MpiSession mpi(argc, argv);
   return Catch::Session().run(argc, argv);
 }

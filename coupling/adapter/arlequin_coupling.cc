@@ -46,8 +46,8 @@ void ArlequinCoupling::apply()
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
     particle_displacement_[k] =
         grains.particles.position[grains.index_of(overlap.particle_id[k])] - overlap.reference_position[k];
-  state_ = penalty_.compute(particle_displacement_, view(std::as_const(body_.solid()).displacement()), particle_force_,
-                            view(body_.solid().external_force()));
+  state_ = penalty_.compute(particle_displacement_, body_.solid().displacement(), particle_force_,
+                            body_.solid().external_force());
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
     grains.particles.external_force[grains.index_of(overlap.particle_id[k])] += particle_force_[k];
 }
@@ -61,7 +61,7 @@ double ArlequinCoupling::stable_step()
     const auto i = grains.index_of(id);
     mass.push_back(grains.particles.weight[i] * grains.particles.mass[i]);
   }
-  return penalty_.stable_time_step({mass, view(std::as_const(body_.solid()).mass()), {}});
+  return penalty_.stable_time_step({mass, body_.solid().mass(), {}});
 }
 
 } // namespace bergamo::coupling

@@ -9,16 +9,6 @@
 namespace bergamo::coupling
 {
 
-/// Views a deal.II vector without a copy; valid while the vector lives and keeps its size.
-inline std::span<double> view(dealii::Vector<double> &vector)
-{
-  return {vector.begin(), vector.size()};
-}
-inline std::span<const double> view(const dealii::Vector<double> &vector)
-{
-  return {vector.begin(), vector.size()};
-}
-
 /// Where grains and elements share the space: the coupled particles are those whose centre lies in an element of the
 /// body's reference configuration, the coupled elements those that hold a centre (Wellmann 6.3). Shape values from
 /// deal.II's inverse mapping, V_IJ by Gauss quadrature.

@@ -3,6 +3,8 @@
 #include "dem/core/error.h"
 #include "dem/core/parallel.h"
 
+#include <Eigen/SparseCholesky>
+
 #include <cassert>
 
 namespace bergamo::coupling
@@ -15,6 +17,14 @@ namespace
 constexpr double least_pivot = 1e-10;
 
 } // namespace
+
+struct CoarseProjection::Solver : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>
+{
+  using SimplicialLDLT::SimplicialLDLT;
+};
+
+CoarseProjection::CoarseProjection(CoarseProjection &&) noexcept = default;
+CoarseProjection::~CoarseProjection() = default;
 
 CoarseProjection::CoarseProjection(const Overlap &overlap, const Projection kind)
     : volume_(overlap.particle_volume), inverse_lumped_(overlap.n_nodes(), 0.)

@@ -3,7 +3,6 @@
 #include "coupling/arlequin/overlap.h"
 #include "dem/core/rows.h"
 
-#include <Eigen/SparseCholesky>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,6 +37,8 @@ public:
   /// Throws ConfigError where Overlap::validate() does, and for a singular A (consistent; too few particles
   /// around a node, whose position the message names).
   CoarseProjection(const Overlap &overlap, Projection kind);
+  CoarseProjection(CoarseProjection &&) noexcept;
+  ~CoarseProjection();
 
   std::size_t n_nodes() const { return of_node_.size(); }
   std::size_t n_particles() const { return volume_.size(); }
@@ -55,7 +56,7 @@ public:
   void collect(ConstVectors particle_values, Vectors node_values) const;
 
 private:
-  using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+  struct Solver;
 
   std::vector<double> volume_;
 

@@ -69,7 +69,10 @@ std::string text_of(const dem::ClumpShape &clump)
       numbers.insert(numbers.end(), {q.w(), q.x(), q.y(), q.z()});
     text += text.empty() ? "" : " ;";
     for (const double number : numbers)
-      text += (text.empty() ? "" : " ") + exact_text(number);
+    {
+      text += text.empty() ? "" : " ";
+      text += exact_text(number);
+    }
   }
   return text;
 }

@@ -2,9 +2,8 @@
 
 #include "dem/core/error.h"
 #include "drivers/common/interrupt.h"
+#include "fe_dealii/mpi_session.h"
 
-#include <deal.II/base/exceptions.h>
-#include <deal.II/base/mpi.h>
 #include <omp.h>
 
 #include <iostream>
@@ -59,8 +58,7 @@ int run_driver(int argc, char **argv, const DriverDescription &description,
         const auto command_line = parse_command_line(argc, argv, description);
         if (!command_line)
           return static_cast<int>(done);
-        dealii::deal_II_exceptions::disable_abort_on_exception();
-        const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+        const fe::MpiSession mpi(argc, argv);
         if (command_line->threads)
           omp_set_num_threads(*command_line->threads);
         install_interrupt_handler();

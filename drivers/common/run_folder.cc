@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <regex>
 #include <utility>
 
 namespace bergamo::driver
@@ -32,8 +31,11 @@ bool is_part(const std::string &name)
 /// NAME_0000.vtu, of the models' pictures.
 bool is_picture(const std::string &name)
 {
-  static const std::regex pattern(".+_[0-9]{4,}\\.vtu");
-  return std::regex_match(name, pattern);
+  if (!name.ends_with(".vtu"))
+    return false;
+  const std::string stem = name.substr(0, name.size() - 4);
+  const std::size_t last = stem.find_last_not_of("0123456789"); // before the number
+  return last != std::string::npos && last > 0 && stem[last] == '_' && stem.size() - last > 4;
 }
 
 /// Whether every driver writes a file or folder of this name.

@@ -82,11 +82,10 @@ FootingModel::FootingModel(const FootingParameters &p)
   conditions = std::make_unique<fe::BoundaryConditions>(*ground, std::move(list));
   footing_nodes = ground->boundary_nodes(footing);
 
-  const std::span<double> force(ground->external_force().begin(), ground->external_force().size());
   if (p.surcharge > 0)
     for (const unsigned int boundary : {unsigned(surface), unsigned(footing)})
       fe::SurfaceLoad(fe::boundary_surface(ground->dof_handler(), boundary), ground->node_position())
-          .add_traction({0, 0, -p.surcharge}, force);
+          .add_traction({0, 0, -p.surcharge}, ground->external_force());
   start_report = fe::find_equilibrium(*ground);
   stable = fe::stable_step(*ground).time_step;
   dt = p.step_share * stable;

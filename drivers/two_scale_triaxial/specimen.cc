@@ -4,10 +4,7 @@
 #include "dem/measure/contact_list.h"
 #include "dem/measure/coordination.h"
 #include "drivers/common/run/visit_models.h"
-#include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
-
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 
@@ -23,22 +20,20 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
     return nullptr;
   const unsigned int n = parameters.elements_per_edge;
   const unsigned int n_layers = parameters.kind == ModelKind::continuum ? n : parameters.continuum_layers;
-  fe::BoxMeshParameters mesh_parameters;
+  fe::BoxMeshParameters mesh;
   for (int d = 0; d < 3; ++d)
   {
-    mesh_parameters.minimum[d] = cube.low[d];
-    mesh_parameters.maximum[d] = cube.high[d];
+    mesh.minimum[d] = cube.low[d];
+    mesh.maximum[d] = cube.high[d];
   }
-  mesh_parameters.maximum[2] = cube.low[2] + cube.edges()[2] * n_layers / n;
-  mesh_parameters.subdivisions = {n, n, n_layers};
-  dealii::Triangulation<3> mesh;
-  fe::make_box(mesh_parameters, mesh);
+  mesh.maximum[2] = cube.low[2] + cube.edges()[2] * n_layers / n;
+  mesh.subdivisions = {n, n, n_layers};
 
   fe::ExplicitBodyParameters body;
   body.material = fe::MohrCoulomb(parameters.continuum);
   body.damping = parameters.continuum_damping;
   body.initial_stress = fe::uniform_pressure(parameters.compression.pressure);
-  return std::make_unique<fe::ExplicitBody>(mesh, body);
+  return std::make_unique<fe::ExplicitBody>(fe::make_box_body(mesh, body));
 }
 
 /// The grains' box, extended downwards by the layers that are continuum alone.

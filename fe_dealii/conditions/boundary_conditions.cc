@@ -86,8 +86,8 @@ BoundaryConditions::BoundaryConditions(ExplicitBody &body, std::vector<BoundaryC
 void BoundaryConditions::apply(const double time, const double dt)
 {
   require(dt > 0 && std::isfinite(dt), "boundary conditions: the time step", dt, "a positive number of seconds");
-  const std::span<double> force(body.external_force().begin(), body.external_force().size());
-  const std::span<const double> displacement(body.displacement().begin(), body.displacement().size());
+  const std::span<double> force = body.external_force();
+  const std::span<const double> displacement = body.displacement();
   for (const Part &part : parts)
   {
     const TimeFunction &value = part.condition.value;

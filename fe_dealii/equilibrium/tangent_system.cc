@@ -50,8 +50,8 @@ TangentSystem::TangentSystem(const ExplicitBody &body, const std::size_t direct_
     : trilinos(std::make_unique<Trilinos>()), body(body)
 {
   if (!dealii::Utilities::MPI::job_supports_mpi())
-    throw RunError("static equilibrium: MPI is not initialized; create a dealii::Utilities::MPI::MPI_InitFinalize "
-                   "at the start of the program");
+    throw RunError("static equilibrium: MPI is not initialized; create a MpiSession at the start "
+                   "of the program");
   const std::size_t n_dofs = 3 * body.n_nodes();
   trilinos->is_direct = n_dofs <= direct_limit;
   dealii::DynamicSparsityPattern pattern(n_dofs, n_dofs);

@@ -47,7 +47,7 @@ dealii::LAPACKFullMatrix<double> dynamic_matrix(const ExplicitBody &body)
   for (std::size_t e = 0; e < body.n_elements(); ++e)
   {
     double k[24][24];
-    body.elements().stiffness(e, body.displacement().begin(), &k[0][0]);
+    body.elements().stiffness(e, body.displacement().data(), &k[0][0]);
     const auto nodes = body.element_nodes(e);
     for (unsigned int i = 0; i < 24; ++i)
       for (unsigned int j = 0; j < 24; ++j)
@@ -149,7 +149,7 @@ TEST_CASE("Internal force is work-conjugate to the strain, the stiffness symmetr
 
   dealii::LAPACKFullMatrix<double> k(24);
   double raw[24][24];
-  body.elements().stiffness(0, body.displacement().begin(), &raw[0][0]);
+  body.elements().stiffness(0, body.displacement().data(), &raw[0][0]);
   for (int i = 0; i < 24; ++i)
     for (int j = 0; j < 24; ++j)
     {

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <span>
 
 using namespace bergamo;
 using namespace bergamo::fe;
@@ -63,7 +64,7 @@ MembraneBody sheet()
   return MembraneBody(mesh, {.material = Ogden({}), .thickness = 1e-3, .gravity = {0, 0, -g}, .damping = 2});
 }
 
-std::vector<double> copy_of(const dealii::Vector<double> &vector)
+std::vector<double> copy_of(const std::span<const double> vector)
 {
   return {vector.begin(), vector.end()};
 }

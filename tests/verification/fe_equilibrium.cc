@@ -236,7 +236,8 @@ TEST_CASE("a body that is held by nothing has no static equilibrium", "[fe]")
   EquilibriumParameters equilibrium;
   equilibrium.direct_limit = GENERATE(0, 100000);
   CHECK_THROWS_AS(find_equilibrium(body, equilibrium), RunError);
-  CHECK(body.displacement().l2_norm() == 0);
+  for (const double displacement : body.displacement())
+    CHECK(displacement == 0);
   equilibrium.tolerance = 0;
   CHECK_THROWS_WITH(find_equilibrium(body, equilibrium), Catch::Contains("tolerance"));
 }

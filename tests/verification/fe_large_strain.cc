@@ -162,7 +162,7 @@ TEST_CASE("large strain: the bound of the stable step against the true one, at r
         std::vector<double> k(n_element * n_element);
         for (std::size_t e = 0; e < body.n_elements(); ++e)
         {
-          body.elements().stiffness(e, body.displacement().begin(), k.data());
+          body.elements().stiffness(e, body.displacement().data(), k.data());
           const auto nodes = body.element_nodes(e);
           for (std::size_t i = 0; i < n_element; ++i)
             for (std::size_t j = 0; j < n_element; ++j)

@@ -71,7 +71,7 @@ double bending_ratio(const double poisson_ratio, const unsigned int n_depth, con
   {
     double k[24][24];
     if (mean_dilatation)
-      body.elements().stiffness(e, body.displacement().begin(), &k[0][0]);
+      body.elements().stiffness(e, body.displacement().data(), &k[0][0]);
     else
       full_stiffness(elements.law(), elements.geometry(e), k);
     const auto nodes = body.element_nodes(e);

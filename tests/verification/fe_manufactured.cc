@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 using namespace bergamo::fe;
 
@@ -111,7 +112,7 @@ Errors static_errors(const unsigned int degree, const unsigned int n)
       }
   dealii::Vector<double> load(3 * body.n_nodes());
   dealii::VectorTools::create_right_hand_side(body.dof_handler(), dealii::QGauss<3>(degree + 2), BodyForce(law), load);
-  bring_to_rest(body, load, prescribed);
+  bring_to_rest(body, {load.begin(), load.size()}, prescribed);
 
   // The forces of the explicit step are those of this equilibrium.
   body.compute_internal_force();
@@ -128,10 +129,10 @@ Errors static_errors(const unsigned int degree, const unsigned int n)
                                               type);
     return of_cells.l2_norm();
   };
-  const dealii::Vector<double> zero(load.size());
+  const std::span<const double> displacement = body.displacement();
+  const dealii::Vector<double> u(displacement.begin(), displacement.end()), zero(load.size());
   using dealii::VectorTools::H1_seminorm, dealii::VectorTools::L2_norm;
-  return {norm(body.displacement(), L2_norm) / norm(zero, L2_norm),
-          norm(body.displacement(), H1_seminorm) / norm(zero, H1_seminorm)};
+  return {norm(u, L2_norm) / norm(zero, L2_norm), norm(u, H1_seminorm) / norm(zero, H1_seminorm)};
 }
 
 } // namespace

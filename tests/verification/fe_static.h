@@ -3,11 +3,13 @@
 #include "fe_dealii/equilibrium/static_equilibrium.h"
 #include "fe_dealii/explicit_body.h"
 
+#include <algorithm>
 #include <map>
+#include <span>
 
 /// Brings an elastic body to rest. @param load nodal forces [N]; @param prescribed displacements by dof,
 /// 3 node + component, which stay held [m]
-inline void bring_to_rest(bergamo::fe::ExplicitBody &body, const dealii::Vector<double> &load,
+inline void bring_to_rest(bergamo::fe::ExplicitBody &body, const std::span<const double> load,
                           const std::map<unsigned int, double> &prescribed)
 {
   for (const auto &[dof, displacement] : prescribed)
@@ -15,7 +17,7 @@ inline void bring_to_rest(bergamo::fe::ExplicitBody &body, const dealii::Vector<
     const unsigned int node[] = {dof / 3};
     body.prescribe_velocity(node, dof % 3, displacement); // over one second
   }
-  body.external_force() = load;
+  std::copy(load.begin(), load.end(), body.external_force().begin());
   bergamo::fe::find_equilibrium(body, {.tolerance = 1e-11, .duration = 1}); // some roundings of a slender body
   body.clear_external_force();
 }
