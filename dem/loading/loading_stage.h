@@ -30,7 +30,7 @@ struct LoadingStage
   double axial_strain = -0.2;      ///< change of L_z over L_z at the start; negative is compression
   int n_cycles = 0;                ///< of the axial strain, to the one given, its opposite and back; 0 goes there once
   double time_step = 2.5e-7;       ///< at most [s]
-  double overlap_tolerance = 1e-4; ///< see ContactParameters
+  double overlap_tolerance = 3e-5; ///< see ContactParameters
   double stress_tolerance = 0.005; ///< over the pressure
   double force_tolerance = 0.01;   ///< mean unbalanced over mean contact force, see unbalanced_force()
   double longest_time = 1.;        ///< [s]
