@@ -18,7 +18,7 @@ using namespace bergamo::fe;
 namespace
 {
 
-using Vec = std::array<double, 3>; // principal values
+using Triple = std::array<double, 3>; // principal values
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -40,7 +40,7 @@ PrincipalFrame<double> random_frame(std::mt19937_64 &random)
   return principal_frame(s);
 }
 
-Stress turn(const Vec &value, const PrincipalFrame<double> &frame)
+Stress turn(const Triple &value, const PrincipalFrame<double> &frame)
 {
   const double v[3] = {value[0], value[1], value[2]};
   return from_principal(v, frame.direction);
@@ -79,33 +79,33 @@ struct Reference
   {
   }
 
-  static Vec direction(const int plane, const double sine)
+  static Triple direction(const int plane, const double sine)
   {
     const double a = 1 + sine, b = -1 + sine;
-    return plane == 0 ? Vec{a, 0, b} : plane == 1 ? Vec{a, b, 0} : Vec{0, a, b};
+    return plane == 0 ? Triple{a, 0, b} : plane == 1 ? Triple{a, b, 0} : Triple{0, a, b};
   }
-  Vec stiff(const Vec &x) const
+  Triple stiff(const Triple &x) const
   {
     const double mean = (x[0] + x[1] + x[2]) / 3;
-    Vec y;
+    Triple y;
     for (int i = 0; i < 3; ++i)
       y[i] = 2 * G * (x[i] - mean) + 3 * K * mean;
     return y;
   }
-  static double dot(const Vec &a, const Vec &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  double yield(const int plane, const Vec &x) const { return dot(direction(plane, f), x) - cc; }
+  static double dot(const Triple &a, const Triple &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  double yield(const int plane, const Triple &x) const { return dot(direction(plane, f), x) - cc; }
 
   struct Candidate
   {
     Sector sector;
-    Vec stress;
+    Triple stress;
   };
 
   // All sectors whose multipliers are not negative and whose stress is admissible (all six planes).
-  std::vector<Candidate> admissible(const Vec &trial, const double slack) const
+  std::vector<Candidate> admissible(const Triple &trial, const double slack) const
   {
     std::vector<Candidate> found;
-    const auto inside = [&](Vec x)
+    const auto inside = [&](Triple x)
     {
       std::sort(x.begin(), x.end(), std::greater<>());
       return yield(0, x) <= slack;
@@ -115,7 +115,7 @@ struct Reference
     const auto matrix = [&](const int i, const int j) { return dot(direction(i, f), stiff(direction(j, s))); };
     if (const double m = yield(0, trial) / matrix(0, 0); m >= 0)
     {
-      Vec x = trial;
+      Triple x = trial;
       for (int i = 0; i < 3; ++i)
         x[i] -= m * stiff(direction(0, s))[i];
       if (inside(x))
@@ -128,7 +128,7 @@ struct Reference
       const double m = (d * p - b * q) / determinant, n = (a * q - c * p) / determinant;
       if (m < 0 || n < 0)
         continue;
-      Vec x = trial;
+      Triple x = trial;
       for (int i = 0; i < 3; ++i)
         x[i] -= m * stiff(direction(0, s))[i] + n * stiff(direction(other, s))[i];
       if (inside(x))
@@ -137,14 +137,14 @@ struct Reference
     // Apex: the plastic strain lies in the cone of the flow directions. By the cone's threefold mirror symmetry, a
     // sorted strain lies inside if it is inside the two facets that meet in the main plane's flow.
     const double apex = cc / 2 / f;
-    Vec e;
+    Triple e;
     const double mean = (trial[0] + trial[1] + trial[2]) / 3;
     for (int i = 0; i < 3; ++i)
       e[i] = (trial[i] - mean) / 2 / G + (mean - apex) / 3 / K;
     const auto inward = [&](const int other)
     {
-      const Vec u = direction(0, s), v = direction(other, s);
-      Vec n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+      const Triple u = direction(0, s), v = direction(other, s);
+      Triple n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
       if (n[0] + n[1] + n[2] < 0)
         n = {-n[0], -n[1], -n[2]};
       return dot(n, e) >= 0;
@@ -155,21 +155,21 @@ struct Reference
   }
 
   // Nearest admissible stress in the energy norm by Dykstra's alternating projections onto the six half spaces.
-  Vec project(const Vec &trial) const
+  Triple project(const Triple &trial) const
   {
-    const auto compliant_norm = [&](const Vec &n) { return dot(n, stiff(n)); };
-    Vec x = trial;
-    std::array<Vec, 6> correction{};
+    const auto compliant_norm = [&](const Triple &n) { return dot(n, stiff(n)); };
+    Triple x = trial;
+    std::array<Triple, 6> correction{};
     for (int sweep = 0; sweep < 200000; ++sweep)
     {
       double moved = 0;
       for (int k = 0; k < 6; ++k)
       {
-        Vec n{};
+        Triple n{};
         const int pairs[6][2] = {{0, 2}, {0, 1}, {1, 2}, {2, 0}, {1, 0}, {2, 1}};
         n[pairs[k][0]] = 1 + f;
         n[pairs[k][1]] = -1 + f;
-        Vec y;
+        Triple y;
         for (int i = 0; i < 3; ++i)
           y[i] = x[i] + correction[k][i];
         const double excess = std::max(0., dot(n, y) - cc) / compliant_norm(n);
@@ -198,12 +198,12 @@ TEST_CASE("Principal frame: values, orthonormality and rebuilding, also for near
   {
     const double gap = std::pow(10., -(trial % 18));
     const double scale = std::pow(10., trial % 13 - 3);
-    const Vec value{scale * (1 + gap * normal(random)), scale, scale * (1 + gap * normal(random))};
+    const Triple value{scale * (1 + gap * normal(random)), scale, scale * (1 + gap * normal(random))};
     const Stress stress = turn(value, random_frame(random));
     const auto frame = principal_frame(stress);
     REQUIRE(frame.value[0] >= frame.value[1]);
     REQUIRE(frame.value[1] >= frame.value[2]);
-    Vec sorted = value;
+    Triple sorted = value;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
     for (int k = 0; k < 3; ++k)
       REQUIRE(std::abs(frame.value[k] - sorted[k]) < 1e-14 * norm(stress));
@@ -303,7 +303,7 @@ TEST_CASE("Mohr-Coulomb: the sector is the only admissible one with positive mul
     const MohrCoulomb material(p);
     const Reference reference(p);
     const double size = std::pow(10., 2 + 4 * unit(random)), shift = size * (4 * unit(random) - 2.5);
-    Vec trial;
+    Triple trial;
     for (double &x : trial)
       x = size * normal(random) + shift;
     std::sort(trial.begin(), trial.end(), std::greater<>());
@@ -349,14 +349,14 @@ TEST_CASE("Mohr-Coulomb: associative flow returns to the nearest point in the en
     p.dilation_angle = p.friction_angle;
     const MohrCoulomb material(p);
     const Reference reference(p);
-    Vec trial;
+    Triple trial;
     const double shift = 4 * unit(random) - 2.5;
     for (double &x : trial)
       x = 1e4 * (normal(random) + shift);
     std::sort(trial.begin(), trial.end(), std::greater<>());
     const Stress trial_stress{trial[0], trial[1], trial[2], 0, 0, 0};
     const StressUpdate update = material.return_to_surface({}, trial_stress, principal_frame(trial_stress));
-    const Vec nearest = reference.project(trial);
+    const Triple nearest = reference.project(trial);
     for (int i = 0; i < 3; ++i)
       REQUIRE(update.stress[i] ==
               Approx(nearest[i]).margin(1e-7 * (std::abs(trial[0]) + std::abs(trial[2]) + p.cohesion)));
@@ -407,12 +407,12 @@ TEST_CASE("Mohr-Coulomb: the return is continuous across the limits of the secto
     MohrCoulombParameters p = random_parameters(random);
     p.dilation_angle = std::max(p.dilation_angle, 0.2 * p.friction_angle); // without dilation the apex is a jump
     const MohrCoulomb material(p);
-    const auto returned = [&](const Vec &x)
+    const auto returned = [&](const Triple &x)
     {
       const Stress s{x[0], x[1], x[2], 0, 0, 0};
       return material.return_to_surface({}, s, principal_frame(s));
     };
-    Vec from, to;
+    Triple from, to;
     const double shift = 4 * unit(random) - 2.5;
     for (int i = 0; i < 3; ++i)
     {
@@ -420,7 +420,7 @@ TEST_CASE("Mohr-Coulomb: the return is continuous across the limits of the secto
       to[i] = 1e4 * (normal(random) + shift);
     }
     const auto at = [&](const double t) {
-      return Vec{from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])};
+      return Triple{from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])};
     };
     for (int piece = 0; piece < 20; ++piece)
     {
