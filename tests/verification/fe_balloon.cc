@@ -302,7 +302,7 @@ TEST_CASE("balloon: the energy of one that is blown up at once closes at second 
     {
       Balloon balloon(law, 3, 0);
       const double dt = 0.3 * stable_step(balloon.body).time_step / refined;
-      const std::span<double> externalballoon.body.external_force();
+      const std::span<double> external = balloon.body.external_force();
       double error = 0, scale = 0;
       for (int k = 0; k < 200 * refined; ++k)
       {
