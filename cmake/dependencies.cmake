@@ -34,6 +34,8 @@ if(BERGAMO_WITH_FE)
   add_library(bergamo_dealii INTERFACE)
   target_include_directories(bergamo_dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
   target_link_libraries(bergamo_dealii INTERFACE ${DEAL_II_TARGET_RELEASE})
+  # Not the C++ interface of MPI, which nobody calls: every source would compile it.
+  target_compile_definitions(bergamo_dealii INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
   # deal.II's headers call Trilinos' Teuchos, which Debian's target names only through the library itself.
   target_link_options(bergamo_dealii INTERFACE -Wl,--copy-dt-needed-entries)
 endif()

@@ -59,7 +59,7 @@ public:
   StateWriter(ArchiveWriter &archive, std::string group) : archive(archive), group(std::move(group)) {}
 
   template <class T>
-  void operator()(const char *name, const T &value)
+  [[gnu::cold]] void operator()(const char *name, const T &value)
   {
     const std::string path = group + '/' + name;
     if constexpr (detail::HasState<const T>)
@@ -76,7 +76,7 @@ public:
   }
 
   template <class T>
-  void operator()(const char *name, const std::vector<T> &values)
+  [[gnu::cold]] void operator()(const char *name, const std::vector<T> &values)
   {
     const std::string path = group + '/' + name;
     if constexpr (std::integral<T>)
@@ -114,7 +114,7 @@ public:
   StateReader(const ArchiveReader &archive, std::string group) : archive(archive), group(std::move(group)) {}
 
   template <class T>
-  void operator()(const char *name, T &value)
+  [[gnu::cold]] void operator()(const char *name, T &value)
   {
     const std::string path = group + '/' + name;
     if constexpr (detail::HasState<T>)
@@ -131,7 +131,7 @@ public:
   }
 
   template <class T>
-  void operator()(const char *name, std::vector<T> &values)
+  [[gnu::cold]] void operator()(const char *name, std::vector<T> &values)
   {
     const std::string path = group + '/' + name;
     if constexpr (std::integral<T>)
@@ -190,7 +190,7 @@ public:
   }
 
   template <class T>
-  void operator()(const char *name, const std::vector<T> &values)
+  [[gnu::cold]] void operator()(const char *name, const std::vector<T> &values)
   {
     if constexpr (detail::HasState<const T>)
       for (const T &value : values)
@@ -202,7 +202,7 @@ public:
   std::uint64_t value() const { return hash; }
 
 private:
-  void add(const void *data, const std::size_t n_bytes)
+  [[gnu::noinline]] void add(const void *data, const std::size_t n_bytes)
   {
     const auto *bytes = static_cast<const unsigned char *>(data);
     for (std::size_t i = 0; i < n_bytes; ++i)
