@@ -119,7 +119,7 @@ Vec3 nearby(const Vec3 &normal, Random &random)
 class PairSearches
 {
 public:
-  explicit PairSearches(Random &random) : pairs(Grain::sand, random), direction(n_pairs, Eigen::Vector3f::Zero())
+  explicit PairSearches(Random &random) : pairs(Grain::sand, random), separation(n_pairs)
   {
     begun.reserve(n_pairs);
     for (int pair = 0; pair < n_pairs; ++pair)
@@ -130,7 +130,7 @@ public:
   void search_all()
   {
     const ContactScene scene{pairs.particles, no_walls, law, parameters, time_step};
-    const SearchContext<GrainGrain> context{scene, store, direction};
+    const SearchContext<GrainGrain> context{scene, store, separation};
     for (int pack = 0; pack < n_packs; ++pack)
     {
       const std::size_t n_begun = begun.size();
@@ -159,7 +159,7 @@ public:
   TouchingPairs pairs;
   const std::vector<PlaneWall> no_walls;
   ContactStore<ContactState> store;
-  std::vector<Eigen::Vector3f> direction;
+  std::vector<Separation> separation;
   std::vector<ContactSearch> searches;
   std::vector<BegunContact<GrainGrain>> begun;
   ContactLosses losses;

@@ -21,7 +21,7 @@ StepTiming time_steps(const dem::Simulation &packing, const int n_steps)
   simulation.check_finite();
   StepTiming timing{n_steps,
                     seconds,
-                    simulation.contacts.n_candidates(),
+                    static_cast<std::size_t>(simulation.contacts.n_candidates()),
                     n_touching(simulation),
                     simulation.contacts.n_searches() - n_searches,
                     simulation.n_rebuilds() - n_rebuilds,

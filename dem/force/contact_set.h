@@ -23,9 +23,9 @@ inline constexpr std::int32_t removed_part = -1;
 /// The same bits on any number of threads: work goes to threads in ranges, and what they find is taken up in order.
 ///
 /// A kind says what a contact remembers (State, Store), where a search starts (Hint), how far its bodies have moved
-/// (travelled), how a block is followed, a group of pairs searched, a contact ended, seen from the other body, searched
-/// anew and shown to a reader; and whether body 2 is a wall, which then counts as a body after the particles. See
-/// dem/force/kinds, and Contacts, which lists them all.
+/// (travelled), what is left of the gap of a pair apart (least_gap), how a block is followed, a group of pairs
+/// searched, a contact ended, seen from the other body, searched anew and shown to a reader; and whether body 2 is a
+/// wall, which then counts as a body after the particles. See dem/force/kinds, and Contacts, which lists them all.
 template <class Kind>
 class ContactSet
 {
@@ -115,7 +115,7 @@ private:
 
   ContactSearch place_of(std::int32_t pair, const Particles &particles) const;
   void list_bodies(std::size_t n_particles, std::size_t n_walls);
-  std::vector<std::int32_t> screen(const ContactScene &scene) const;
+  std::vector<std::int32_t> screen(const ContactScene &scene);
   Found search(const std::vector<std::int32_t> &due_slots, const std::vector<std::int32_t> &candidates,
                const ContactScene &scene);
   void take_up(const Found &found, const ContactScene &scene);

@@ -39,11 +39,20 @@ void ContactSet<Kind>::compute(const ContactScene &scene, PhaseTimes &times)
 
 /// Candidates apart that may touch by now.
 template <class Kind>
-std::vector<std::int32_t> ContactSet<Kind>::screen(const ContactScene &scene) const
+std::vector<std::int32_t> ContactSet<Kind>::screen(const ContactScene &scene)
 {
   Collected<std::int32_t> candidates;
   const auto travelled = [&](const std::size_t pair)
   { return Kind::travelled(scene, list.first[pair], list.second[pair]); };
+  const auto look_at = [&](const std::size_t part, const std::size_t pair)
+  {
+    const auto number = static_cast<std::int32_t>(pair);
+    const double gap = Kind::least_gap(hint[pair], place_of(number, scene.particles), scene);
+    if (gap > 0.)
+      rest_until[pair] = travelled(pair) + gap;
+    else
+      candidates.of(part).push_back(number);
+  };
   const std::size_t n_packs = list.size() / pack_width;
   parallel_ranges(n_packs, 64,
                   [&](const std::size_t part, const std::size_t begin, const std::size_t end)
@@ -57,12 +66,12 @@ std::vector<std::int32_t> ContactSet<Kind>::screen(const ContactScene &scene) co
                         continue;
                       for (int lane = 0; lane < pack_width; ++lane)
                         if (!math::lane(is_at_rest, lane))
-                          candidates.of(part).push_back(static_cast<std::int32_t>(pair + lane));
+                          look_at(part, pair + lane);
                     }
                   });
   for (std::size_t pair = n_packs * pack_width; pair < list.size(); ++pair)
     if (!(travelled(pair) < rest_until[pair]))
-      candidates.of(most_parts() - 1).push_back(static_cast<std::int32_t>(pair));
+      look_at(most_parts() - 1, pair);
   return candidates.all();
 }
 

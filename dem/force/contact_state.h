@@ -26,8 +26,11 @@ struct ContactState
   Real weight;       ///< share of the contact in the virtual work
   /// Radii of curvature of both surfaces less half the overlap, in the tangent frame [m]; no second ones at a plane.
   CurvatureRadii<Real> radii1, radii2;
-  Real wear1, wear2; ///< share of the budget that a turn of the normal relative to body 1 or 2 uses up [1/rad]
-  Real budget;       ///< left before the contact is searched anew: from 1 down to 0; see also `lost`
+  /// Share of the budget that a turn of the normal relative to body 1 or 2 uses up, towards both axes; and a turn of
+  /// the bodies against one another about the normal [1/rad].
+  Vector2<Real> wear1, wear2;
+  Real twist_wear;
+  Real budget; ///< left before the contact is searched anew: from 1 down to 0; see also `lost`
 
   /// The budget of a contact that a step could not follow, and has left as the last step left it.
   static constexpr double lost = -std::numeric_limits<double>::infinity();
@@ -52,8 +55,14 @@ struct ContactState
     const Real nought(0.), one(1.);
     const Vector3<Real> zero(nought, nought, nought);
     const CurvatureRadii<Real> none{nought, nought, nought};
-    return {zero,   zero,   zero,      {{nought, nought}, nought}, nought, {one, one, one}, one, nought, none, none,
-            nought, nought, Real(lost)};
+    const Vector2<Real> no_wear(nought, nought);
+    return {zero,    zero,
+            zero,    {{nought, nought}, nought},
+            nought,  {one, one, one},
+            one,     nought,
+            none,    none,
+            no_wear, no_wear,
+            nought,  Real(lost)};
   }
 
   /// Fills unused lanes: stays as it is, without weight, and is never due.

@@ -25,11 +25,12 @@ struct ContactTurn
   ContactMotion<Real, Vector2<Real>> motion; ///< in the step
 };
 
-/// Sum of the magnitudes: a bound of the length that takes no root.
+/// Square of what a turn of the normal relative to a body uses up of the contact's budget.
 template <class Real>
-Real magnitude(const Vector2<Real> &v)
+Real squared_wear(const Vector2<Real> &wear, const Vector2<Real> &turn)
 {
-  return math::abs(v[0]) + math::abs(v[1]);
+  const Real x = wear[0] * turn[0], y = wear[1] * turn[1];
+  return x * x + y * y;
 }
 
 /// Turns that are followed at once: beyond it a contact is searched [rad].

@@ -74,8 +74,9 @@ struct PairMotion
     const Vector2<Real> of_body1 = turn.tilt - roll1, of_body2 = turn.tilt - roll2;
     turn.shift =
         (of_arm1 + of_arm2) * half + from_frame<Real>(frame, (s.radii1 * of_body1 - s.radii2 * of_body2) * half);
-    const Real twist = math::abs(half * (about_normal2 - about_normal1));
-    turn.wear = s.wear1 * (magnitude(of_body1) + twist) + s.wear2 * (magnitude(of_body2) + twist);
+    const Real twist = half * (about_normal2 - about_normal1);
+    turn.wear =
+        math::sqrt(squared_wear(s.wear1, of_body1) + squared_wear(s.wear2, of_body2)) + s.twist_wear * math::abs(twist);
     const Vector3<Real> further = (turn2 - turn1).cross(turn.shift) * half; // at the point of the middle of the step
     seen[0] += frame.col(0).dot(further);
     seen[1] += frame.col(1).dot(further);

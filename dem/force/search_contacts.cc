@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 namespace bergamo::dem
 {
@@ -66,11 +65,15 @@ Real contact_weight(const Real &weight1, const Real &weight2, const Vector3<Real
   return weight1 + fraction * (weight2 - weight1);
 }
 
-/// What searches give beside the states of the contacts.
-struct SearchYield
+/// Searches of a group of pairs, and what they give beside the states of the contacts.
+struct GroupOfSearches
 {
-  ContactLosses losses; ///< with the weights [J]
-  std::vector<BegunContact<GrainGrain>> begun;
+  const std::span<ContactSearch> searches;
+  const SearchContext<GrainGrain> &context;
+  std::vector<Vec3> start = std::vector<Vec3>(searches.size(), Vec3::Zero()); ///< where those left open go on
+
+  ContactLosses losses = {}; ///< with the weights [J]
+  std::vector<BegunContact<GrainGrain>> begun = {};
 };
 
 enum class Effort
@@ -79,14 +82,30 @@ enum class Effort
   all
 };
 
-/// Searches one pack. @param which of the searches, at most pack_width; @return those that are not decided
-std::vector<std::size_t> search_pack(const std::span<ContactSearch> all, const std::span<const std::size_t> which,
-                                     const Effort effort, const SearchContext<GrainGrain> &context, SearchYield &yield)
+/// Normals to start from: those of last step's contacts. One that could not be followed turned too far for that, but a
+/// turn by its radii of curvature still leads near.
+Vector3<Pack> turned_normal(const ContactState<Pack> &s, const PairMotion<Pack> &motion)
 {
+  constexpr double too_far = 0.1; // [rad]
+  const math::Mask<Pack> is_followed = s.budget > Pack(s.lost);
+  if (!math::any(!is_followed))
+    return s.normal;
+  TangentFrameOf<Pack> frame;
+  frame << s.axis, s.second_axis();
+  const ContactTurn<Pack> turn = motion.turn(s, frame);
+  const math::Mask<Pack> stays = is_followed || !(turn.tilt.squaredNorm() < Pack(too_far * too_far));
+  return math::select<Pack>(stays, s.normal, TurnedFrame<Pack>(s.normal, frame, turn).normal);
+}
+
+/// Searches one pack. @param which of the group, at most pack_width; @return those that are not decided
+std::vector<std::size_t> search_pack(GroupOfSearches &group, const std::span<const std::size_t> which,
+                                     const Effort effort)
+{
+  const SearchContext<GrainGrain> &context = group.context;
   const ContactScene &scene = context.scene;
   const Particles &p = scene.particles;
   const int n = static_cast<int>(which.size());
-  const auto search_of = [&](const int lane) -> ContactSearch & { return all[which[lane < n ? lane : 0]]; };
+  const auto search_of = [&](const int lane) -> ContactSearch & { return group.searches[which[lane < n ? lane : 0]]; };
   const auto first_part = [&](const int lane) { return search_of(lane).first_part; };
   const auto second_part = [&](const int lane) { return search_of(lane).second_part; };
   const auto first = [&](const int lane) { return search_of(lane).first; };
@@ -97,15 +116,19 @@ std::vector<std::size_t> search_pack(const std::span<ContactSearch> all, const s
 
   // The states of last step; a pair without a contact gets one about to begin.
   ContactState<Pack> s = ContactState<Pack>::begin();
-  Vector3<Pack> guess;
   for (int lane = 0; lane < pack_width; ++lane)
+    if (const std::int32_t slot = search_of(lane).slot; slot >= 0)
+      context.store.copy_lane(slot, s, lane);
+  const PairMotion<Pack> motion(p, first, second, image, scene.time_step);
+  Vector3<Pack> guess = turned_normal(s, motion);
+  for (int lane = 0; lane < n; ++lane)
   {
-    const ContactSearch &search = search_of(lane);
-    const bool has_contact = search.slot >= 0;
-    if (has_contact)
-      context.store.copy_lane(search.slot, s, lane);
+    const Vec3 &start = group.start[which[lane]];
     for (int d = 0; d < 3; ++d)
-      guess[d][lane] = has_contact ? math::lane(s.normal[d], lane) : context.hint[search.pair][d];
+      if (search_of(lane).slot < 0)
+        guess[d][lane] = context.hint[search_of(lane).pair].direction[d];
+      else if (effort == Effort::all)
+        guess[d][lane] = start[d];
   }
 
   Vector3<Pack> part_arm1, part_arm2;
@@ -130,6 +153,7 @@ std::vector<std::size_t> search_pack(const std::span<ContactSearch> all, const s
       {
         is_decided[lane] = false;
         open.push_back(which[lane]);
+        group.start[which[lane]] = math::lane<Pack>(look.next, lane);
       }
   }
   for (int lane = 0; lane < n; ++lane)
@@ -141,12 +165,11 @@ std::vector<std::size_t> search_pack(const std::span<ContactSearch> all, const s
     search.is_touching = math::lane(found.overlap, lane) > 0.;
     search.gap = -math::lane(found.overlap, lane);
     if (!search.is_touching)
-      context.hint[search.pair] = math::lane<Pack>(found.normal, lane).cast<float>();
+      context.hint[search.pair] = Separation(math::lane<Pack>(found.normal, lane), search.gap, search, scene);
   }
   if (!math::any(found.overlap > 0.))
     return open;
 
-  const PairMotion<Pack> motion(p, first, second, image, scene.time_step);
   const double bound = scene.parameters.curvature_bound;
   const RelativeCurvature<Pack> curvature = relative_curvature(
       found.frame, principal_radii(body1, found.normal, found.radii1), curvature_bounds(body1.shape, bound),
@@ -157,11 +180,15 @@ std::vector<std::size_t> search_pack(const std::span<ContactSearch> all, const s
   const ContactState<Pack> before = s;
   place_contact(s, found.normal, point, found.overlap, curvature, scene.law.elastic);
   const Pack half_overlap = found.overlap * Pack(0.5);
-  s.radii1 = seen_from(s.axis, found.frame, found.radii1) - half_overlap;
-  s.radii2 = seen_from(s.axis, found.frame, found.radii2) - half_overlap;
-  const Pack error = Pack(scene.parameters.overlap_tolerance) * found.overlap;
-  give_budget(s, scene.parameters, turn_wear(radii_change(body1, found.normal, found.arm1), found.radii1, error),
-              turn_wear(radii_change(body2, found.normal, found.arm2), found.radii2, error));
+  s.radii1 = seen_from(s.axis, found.frame, found.radii1);
+  s.radii2 = seen_from(s.axis, found.frame, found.radii2);
+  TangentFrameOf<Pack> frame;
+  frame << s.axis, s.second_axis();
+  const Pack error = Pack(tolerance) * found.overlap;
+  give_budget<Pack>(s, scene.parameters, {RadiiChange<Pack>(body1, found.normal, found.arm1), frame, s.radii1, error},
+                    {RadiiChange<Pack>(body2, found.normal, found.arm2), frame, s.radii2, error});
+  s.radii1 = s.radii1 - half_overlap;
+  s.radii2 = s.radii2 - half_overlap;
   s.weight = contact_weight<Pack>(load(p.weight, first), load(p.weight, second), motion.half_line * Pack(2.),
                                   s.point + motion.half_line);
   const Pack mass1 = load(p.mass, first), mass2 = load(p.mass, second);
@@ -177,13 +204,13 @@ std::vector<std::size_t> search_pack(const std::span<ContactSearch> all, const s
     ContactSearch &search = search_of(lane);
     if (!is_decided[lane] || !search.is_touching)
       continue;
-    yield.losses += lost.of_lane(lane);
+    group.losses += lost.of_lane(lane);
     search.resultant = {math::lane<Pack>(force, lane), math::lane<Pack>(torque1, lane),
                         math::lane<Pack>(torque2, lane)};
     if (search.slot >= 0)
       context.store.take_lane(search.slot, s, lane);
     else
-      yield.begun.push_back({which[lane], lane_of(s, lane)});
+      group.begun.push_back({which[lane], lane_of(s, lane)});
   }
   return open;
 }
@@ -193,25 +220,28 @@ std::vector<std::size_t> search_pack(const std::span<ContactSearch> all, const s
 void search_contacts(const std::span<ContactSearch> searches, const SearchContext<GrainGrain> &context,
                      ContactLosses &losses, std::vector<BegunContact<GrainGrain>> &begun)
 {
-  // Most are decided by one evaluation; the others go on together, in packs of their own.
-  SearchYield yield;
+  // Most are decided by one evaluation; the others go on together, in packs of their own, with those never searched.
+  GroupOfSearches group{searches, context};
   const auto search_all = [&](const std::vector<std::size_t> &which, const Effort effort)
   {
     std::vector<std::size_t> open;
     for (std::size_t from = 0; from < which.size(); from += pack_width)
     {
       const std::span pack(&which[from], std::min<std::size_t>(pack_width, which.size() - from));
-      const std::vector<std::size_t> left = search_pack(searches, pack, effort, context, yield);
+      const std::vector<std::size_t> left = search_pack(group, pack, effort);
       open.insert(open.end(), left.begin(), left.end());
     }
     return open;
   };
-  std::vector<std::size_t> all(searches.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  search_all(search_all(all, Effort::one_evaluation), Effort::all);
-  losses += yield.losses;
-  std::sort(yield.begun.begin(), yield.begun.end(), [](const auto &a, const auto &b) { return a.search < b.search; });
-  begun.insert(begun.end(), yield.begun.begin(), yield.begun.end());
+  std::vector<std::size_t> known, open;
+  for (std::size_t k = 0; k < searches.size(); ++k)
+    (searches[k].slot >= 0 || !context.hint[searches[k].pair].direction.isZero() ? known : open).push_back(k);
+  const std::vector<std::size_t> left = search_all(known, Effort::one_evaluation);
+  open.insert(open.end(), left.begin(), left.end());
+  search_all(open, Effort::all);
+  losses += group.losses;
+  std::sort(group.begun.begin(), group.begun.end(), [](const auto &a, const auto &b) { return a.search < b.search; });
+  begun.insert(begun.end(), group.begun.begin(), group.begun.end());
 }
 
 } // namespace bergamo::dem

@@ -2,6 +2,7 @@
 
 #include "dem/force/contact_scene.h"
 #include "dem/force/contact_turn.h"
+#include "dem/geometry/turn_wear.h"
 
 /// How a touching contact takes what its search has found.
 namespace bergamo::dem
@@ -33,13 +34,16 @@ void place_contact(ContactState<Real> &s, const Vector3<Real> &normal, const Vec
   s.forces.tangential = {s.axis.dot(flat) * scale, s.second_axis().dot(flat) * scale};
 }
 
-/// @param wear1, wear2 see turn_wear(); of no meaning where no error is allowed: then the contact is always due
+/// @param wear1, wear2 of both bodies; of no meaning where no error is allowed: then the contact is always due
 template <class Real>
-void give_budget(ContactState<Real> &s, const ContactParameters &parameters, const Real &wear1, const Real &wear2)
+void give_budget(ContactState<Real> &s, const ContactParameters &parameters, const TurnWear<Real> &wear1,
+                 const TurnWear<Real> &wear2)
 {
   const bool is_followed = parameters.overlap_tolerance > 0.;
-  s.wear1 = is_followed ? wear1 : Real(0.);
-  s.wear2 = is_followed ? wear2 : Real(0.);
+  const Vector2<Real> none(Real(0.), Real(0.));
+  s.wear1 = is_followed ? wear1.tilt : none;
+  s.wear2 = is_followed ? wear2.tilt : none;
+  s.twist_wear = is_followed ? Real(wear1.twist + wear2.twist) : Real(0.);
   s.budget = Real(is_followed ? 1. : -1.);
 }
 

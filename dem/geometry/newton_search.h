@@ -106,8 +106,25 @@ public:
   /// Goes on until every lane is decided or the evaluations are used up.
   void run(const int max_evaluations)
   {
+    run(max_evaluations, [] {});
+  }
+
+  /// @param look called after every evaluation; may close lanes
+  template <class Look>
+  void run(const int max_evaluations, Look &&look)
+  {
     while (math::any(is_open) && n_evaluations < max_evaluations)
+    {
       advance();
+      look();
+    }
+  }
+
+  /// The direction to be tried next.
+  Vector3<Real> next() const
+  {
+    const Vector3<Real> target = best.c + step;
+    return target / target.norm();
   }
 
   /// Whether best.c is in the middle of a flat region of one of the bodies (a component of its normal is nearly zero
@@ -206,8 +223,7 @@ private:
   void advance()
   {
     using math::max, math::min, math::select;
-    const Vector3<Real> target = best.c + step;
-    const Evaluation<Real> trial(body1, body2, target / target.norm());
+    const Evaluation<Real> trial(body1, body2, next());
     ++n_evaluations;
     const Vector3<Real> trial_tangential = trial.tangential_gap();
     const Mask was_apart = best.phi < Real(0.);

@@ -67,7 +67,9 @@ template <class Real>
 struct ModelMinimum
 {
   FoundContacts<Real> found;
-  math::Mask<Real> is_sure; ///< touching, and the model's error of the overlap is below a hundredth of what is allowed
+  math::Mask<Real> is_sure; ///< touching, and the model's error of the overlap is below a share of what is allowed
+
+  static constexpr double share = 0.01;
 
   /// @param tolerance error allowed: of the overlap over the overlap, of the normal [rad]
   ModelMinimum(const Pose<Real> &body1, const Pose<Real> &body2, const Evaluation<Real> &e, const double tolerance)
@@ -77,12 +79,15 @@ struct ModelMinimum
     const CurvatureRadii<Real> hessian = e.radii1 + e.radii2 - e.phi;
     const Vector2<Real> gap = in_frame(frame, e.gap), tilt = hessian.solve(gap);
     found.overlap = e.phi - Real(0.5) * tilt.dot(gap);
-    const Real error = Real(tolerance) * found.overlap;
-    const Real change1 = radii_change(body1, e.c, e.arm1), change2 = radii_change(body2, e.c, e.arm2);
-    const Real wear = turn_wear(change1, e.radii1, error) + turn_wear(change2, e.radii2, error);
-    const Real square = tilt.squaredNorm();
+    const Real square = tilt.squaredNorm(), length = math::sqrt(square);
+    const Vector2<Real> along = tilt / math::max(length, Real(1e-150));
+    const Vector3<Real> towards = from_frame(frame, along);
+    const Real change1 = RadiiChange<Real>(body1, e.c, e.arm1)(towards),
+               change2 = RadiiChange<Real>(body2, e.c, e.arm2)(towards);
+    const Real change_of_slope = change1 * along.dot(e.radii1 * along) + change2 * along.dot(e.radii2 * along);
     is_sure = found.overlap > Real(0.) && hessian.r11 > Real(0.) &&
-              hessian.r11 * hessian.r22 > hessian.r12 * hessian.r12 && square * wear * wear < Real(0.04) &&
+              hessian.r11 * hessian.r22 > hessian.r12 * hessian.r12 &&
+              square * length * change_of_slope < Real(6. * share * tolerance) * found.overlap &&
               square * (change1 + change2) < Real(0.1 * tolerance);
     found.arm1 += from_frame(frame, e.radii1 * tilt);
     found.arm2 -= from_frame(frame, e.radii2 * tilt);
@@ -139,12 +144,13 @@ struct FirstLook
   }
 
   NewtonSearch<Real> search;
+  Vector3<Real> next;                                 ///< direction from which to go on
   math::Mask<Real> is_known;                          ///< had a guess
   math::Mask<Real> is_sure = math::Mask<Real>(false); ///< the model's minimum was taken
 
 private:
   FirstLook(const NewtonSearch<Real> &search, const math::Mask<Real> &is_known)
-      : found(detail::found_at(search.best)), search(search), is_known(is_known)
+      : found(detail::found_at(search.best)), search(search), next(search.next()), is_known(is_known)
   {
     const math::Mask<Real> is_number = found.overlap == found.overlap; // a state that is none stops the run elsewhere
     is_decided = !is_number || !(search.is_open || is_saddle(search) || (!is_known && is_suspicious(search)));
@@ -171,16 +177,27 @@ FoundContacts<Real> search_pairs(const Pose<Real> &body1, const Pose<Real> &body
     return look.found;
   NewtonSearch<Real> &search = look.search;
   search.close(look.is_decided);
-  search.run(max_evaluations);
-
-  FoundContacts<Real> found = detail::found_at(search.best);
-  detail::replace_where(found, look.is_decided, look.found);
+  FoundContacts<Real> found = look.found;
+  math::Mask<Real> is_found = look.is_decided;
+  search.run(max_evaluations,
+             [&]
+             {
+               const math::Mask<Real> is_asked = look.is_known && search.is_open && search.best.phi > Real(0.);
+               if (!(tolerance > 0.) || !math::any(is_asked))
+                 return;
+               const detail::ModelMinimum<Real> model(body1, body2, search.best, tolerance);
+               const math::Mask<Real> is_sure = is_asked && model.is_sure;
+               detail::replace_where(found, is_sure, model.found);
+               search.close(is_sure);
+               is_found = is_found || is_sure;
+             });
+  detail::replace_where<Real>(found, !is_found, detail::found_at(search.best));
   found.is_undecided = look.found.is_undecided;
   found.n_evaluations = search.n_evaluations * n;
   math::Mask<Real> is_doubtful = search.is_open || is_saddle(search);
   if (math::any(!look.is_known))
     is_doubtful = is_doubtful || (!look.is_known && is_suspicious(search));
-  is_doubtful = is_doubtful && !look.is_decided;
+  is_doubtful = is_doubtful && !is_found;
   if (!math::any(is_doubtful))
     return found;
   const Vector3<Real> start = FirstLook<Real>::start_of(body1, body2, guess);

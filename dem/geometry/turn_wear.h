@@ -5,36 +5,70 @@
 namespace bergamo::dem
 {
 
-/// Relative change of the radii of curvature of a body's surface over a radian of its normal, about an upper bound.
-/// In the plane they are R = (q - 1) (r1 r2)^q (n1 n2)^(q - 2) / h^(2 q - 1), so that
-///   d ln R = (q - 2) (n2 / n1 - n1 / n2) - (2 q - 1) x.t / h,
-/// x.t the part of the arm beside the normal; in space the exponents of both planes add up.
-/// @param normal unit vector, global, of either sign; @param arm surface point minus centre [m]
+/// How fast the radii of curvature of a body's surface change where its normal is known. In a plane of the body's axes
+/// they are R = (q - 1) (r1 r2)^q (n1 n2)^(q - 2) / h^(2 q - 1), so that over a turn of the normal n towards t
+///   d ln R = (q - 2) (t1 / n1 + t2 / n2) - (2 q - 1) x.t / h,
+/// x the arm; in space the exponents of both planes add up. Bounded by the magnitudes of all terms.
 template <class Real>
-Real radii_change(const Pose<Real> &body, const Vector3<Real> &normal, const Vector3<Real> &arm)
+class RadiiChange
 {
-  const Real least(0.3);   // of a round body: no budget lasts for ever
-  const Real tiny(1e-100); // keeps the inverse finite
-  const auto inverse = [&](const Real &n) -> Real { return Real(1.) / math::max(math::abs(n), tiny); };
-  const Vector3<Real> n = turn_back(body.rotation, normal);
-  const Real along = arm.dot(normal), beside = math::sqrt((arm - normal * along).squaredNorm());
-  const Real &q1 = body.shape.q1, &q2 = body.shape.q2;
-  const Real from_pole = math::sqrt(n[0] * n[0] + n[1] * n[1]);
-  return least + (Real(2.) * math::max(q1, q2) - Real(1.)) * beside / math::abs(along) +
-         math::abs(q1 - Real(2.)) * (inverse(n[0]) + inverse(n[1])) +
-         math::abs(q2 - Real(2.)) * (inverse(n[2]) + inverse(from_pole));
-}
+public:
+  /// @param normal unit vector, global, of either sign; @param arm surface point minus centre [m]; all by reference
+  RadiiChange(const Pose<Real> &body, const Vector3<Real> &normal, const Vector3<Real> &arm)
+      : body(body), arm(arm), n(turn_back(body.rotation, normal)), height(math::abs(arm.dot(normal)))
+  {
+  }
 
-/// Inverse of the turn of the normal relative to a body [1/rad] after which a contact followed with the radii held may
-/// have an error of a share of its overlap: R kappa theta^3 / 6, with kappa the relative change of the radii; and no
-/// more than 3 % of the radii may be gone. Turns of both bodies add up.
-/// @param change radii_change(); @param radii of the body; @param error allowed [m], > 0
+  /// Relative change over a radian. @param towards unit vector beside the normal, of either sign
+  Real operator()(const Vector3<Real> &towards) const
+  {
+    const Real least(0.3);   // of a round body: no budget lasts for ever
+    const Real tiny(1e-100); // keeps quotients finite
+    const Real one(1.), two(2.);
+    const auto share = [&](const Real &change, const Real &of) -> Real
+    { return math::abs(change) / math::max(math::abs(of), tiny); };
+    const Vector3<Real> t = turn_back(body.rotation, towards);
+    const Real &q1 = body.shape.q1, &q2 = body.shape.q2;
+    return least + (two * math::max(q1, q2) - one) * share(arm.dot(towards), height) +
+           math::abs(q1 - two) * (share(t[0], n[0]) + share(t[1], n[1])) +
+           math::abs(q2 - two) * (share(t[2], n[2]) + share(n[0] * t[0] + n[1] * t[1], n[0] * n[0] + n[1] * n[1]));
+  }
+
+private:
+  const Pose<Real> &body;
+  const Vector3<Real> &arm;
+  const Vector3<Real> n; // in the body's frame
+  const Real height;
+};
+
+/// Inverse of the turns [1/rad] after which a contact followed with the radii of a body held may have an error of a
+/// share of its overlap. A turn of the normal by theta leaves R kappa theta^3 / 6, with kappa the relative change of
+/// the radii; a twist phi about the normal beside it turns the radii and leaves R theta^2 phi / 2 at most. And no more
+/// than 3 % of the radii may be gone. Turns of both bodies and in both directions add up by squares, since their cubes
+/// do.
 template <class Real>
-Real turn_wear(const Real &change, const CurvatureRadii<Real> &radii, const Real &error)
+struct TurnWear
 {
-  constexpr double largest_change = 0.03;
-  const Real cube = radii.norm() * change / (Real(6.) * error);
-  return math::max(math::exp(math::log(cube) * Real(1. / 3.)), change * Real(1. / largest_change));
-}
+  Vector2<Real> tilt = {Real(0.), Real(0.)}; ///< towards both axes of the tangent frame
+  Real twist = Real(0.);
+
+  TurnWear() = default; ///< of a plane
+
+  /// @param radii of curvature in the tangent frame [m]; @param error allowed [m], > 0
+  TurnWear(const RadiiChange<Real> &change, const TangentFrameOf<Real> &frame, const CurvatureRadii<Real> &radii,
+           const Real &error)
+  {
+    constexpr double largest_change = 0.03;
+    const auto wear_towards = [&](const int axis, const Real &radius)
+    {
+      const Real kappa = change(frame.col(axis)), cube = radius * kappa / (Real(6.) * error);
+      const Real root = math::exp(math::log(cube) * Real(1. / 3.));
+      tilt[axis] = math::max(root, kappa * Real(1. / largest_change));
+      twist = math::max(twist, math::max(Real(root / math::max(kappa, Real(1.))), Real(1. / largest_change)));
+    };
+    wear_towards(0, radii.r11);
+    wear_towards(1, radii.r22);
+  }
+};
 
 } // namespace bergamo::dem

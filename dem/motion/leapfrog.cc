@@ -82,7 +82,7 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Step &step, Pack &la
   const Vector3<Pack> spin = mean_angular_velocity(old, load(p.inertia, grains), momentum, dt);
   const Orientation<Pack> orientation = turned(old, Vector3<Pack>(spin * Pack(dt)));
 
-  const Pack motion = dt * (velocity.norm() + spin.norm() * load(p.bounding_radius, grains));
+  const Pack turn = dt * spin.norm(), motion = dt * velocity.norm() + turn * load(p.bounding_radius, grains);
   if (math::any(!(motion + position.squaredNorm() + orientation.w < infinity)))
     return false;
   largest = math::max(largest, motion);
@@ -95,11 +95,12 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Step &step, Pack &la
   {
     p.orientation[grains.begin + lane] = Quaternion(math::lane(orientation.w, lane), math::lane(orientation.x, lane),
                                                     math::lane(orientation.y, lane), math::lane(orientation.z, lane));
+    p.turned[grains.begin + lane] += math::lane(turn, lane);
     if (!p.has_clumps())
       p.parts.motion[grains.begin + lane] += math::lane(motion, lane);
   }
   if (p.has_clumps())
-    add_motion_of_parts(p, grains, dt * velocity.norm(), dt * spin.norm());
+    add_motion_of_parts(p, grains, dt * velocity.norm(), turn);
   return true;
 }
 

@@ -78,6 +78,7 @@ void Particles::add(const Clump &clump, const double density, const Vec3 &new_po
   orientation.push_back(unit);
   for (auto *motion : {&velocity, &angular_momentum, &drift_velocity, &angular_velocity, &force, &torque})
     motion->push_back(Vec3::Zero());
+  turned.push_back(0.);
   weight.push_back(1.);
 
   for (const ClumpPart &part : clump.parts())

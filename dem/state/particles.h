@@ -29,6 +29,7 @@ struct Particles
   std::vector<Vec3> angular_momentum;  ///< global frame; likewise [kg m^2/s]
   std::vector<Vec3> drift_velocity;    ///< mean over the step before, which led to the present place [m/s]
   std::vector<Vec3> angular_velocity;  ///< mean over the step before, which led to the present orientation [1/s]
+  std::vector<double> turned;          ///< sum of the angles of all turns since the start [rad]
 
   std::vector<Vec3> force;          ///< resultant at this step [N]
   std::vector<Vec3> torque;         ///< about the centre [N m]
@@ -103,6 +104,7 @@ struct Particles
     visit("angular_momentum", self.angular_momentum);
     visit("drift_velocity", self.drift_velocity);
     visit("angular_velocity", self.angular_velocity);
+    visit("turned", self.turned);
     visit("force", self.force);
     visit("torque", self.torque);
     visit("external_force", self.external_force);

@@ -34,7 +34,7 @@ void GrainGrain::exchange_bodies(State &s)
   s.radii1.r12 = -s.radii1.r12;
   s.radii2.r12 = -s.radii2.r12;
   std::swap(s.radii1, s.radii2);
-  std::swap(s.wear1, s.wear2);
+  s.wear1.swap(s.wear2);
 }
 
 void GrainGrain::refresh(Store &store, const Particles &)

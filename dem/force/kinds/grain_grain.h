@@ -2,6 +2,7 @@
 
 #include "dem/force/contact_set.h"
 #include "dem/force/kinds/between_parts.h"
+#include "dem/force/separation.h"
 
 #include <span>
 #include <vector>
@@ -15,8 +16,12 @@ struct GrainGrain : BetweenParts
 {
   using State = ContactState<double>;
   using Store = ContactStore<ContactState>;
-  using Hint = Eigen::Vector3f; ///< direction that separates a pair apart; zero for a pair never searched
-  static Hint no_hint() { return Hint::Zero(); }
+  using Hint = Separation;
+  static Hint no_hint() { return {}; }
+  static double least_gap(const Hint &separation, const ContactSearch &pair, const ContactScene &scene)
+  {
+    return separation.least_gap(pair, scene);
+  }
 
   static constexpr std::size_t search_group = 64;
 
@@ -26,7 +31,7 @@ struct GrainGrain : BetweenParts
                      std::vector<BegunContact<GrainGrain>> &begun);
   static ContactLosses end(const ContactSearch &search, const State &state, const ContactScene &scene);
   static void exchange_bodies(State &state);
-  static void exchange_bodies(Hint &direction) { direction = -direction; }
+  static void exchange_bodies(Hint &separation) { separation.exchange_bodies(); }
   static void refresh(Store &store, const Particles &particles);
   static TouchingContact view(const ContactSearch &place, const State &state, const Particles &particles);
 };

@@ -35,7 +35,7 @@ struct WallMotion
     turn.tilt = {Real(0.), Real(0.)};
     turn.spin = half * s.normal.dot(rotation); // the mean of both bodies
     turn.shift = of_arm - from_frame<Real>(frame, s.radii1 * roll) + s.normal * (half * s.normal.dot(at_old_point));
-    turn.wear = s.wear1 * (magnitude(roll) + math::abs(turn.spin));
+    turn.wear = math::sqrt(squared_wear(s.wear1, roll)) + s.twist_wear * math::abs(turn.spin);
     const Vector3<Real> displacement = at_old_point - rotation.cross(turn.shift) * half;
     Vector3<Real> seen;
     seen << in_frame(frame, displacement), s.normal.dot(displacement);
@@ -82,9 +82,13 @@ void locate(ContactSearch &search, const ContactScene &scene, ContactState<doubl
     point += arm_of(p, search.first_part, search.first);
   place_contact(s, normal, point, overlap, relative_curvature(frame, principal_radii(pose, normal, g.radii), bounds),
                 scene.law.elastic);
-  s.radii1 = seen_from(s.axis, frame, g.radii) - 0.5 * overlap;
-  give_budget(s, scene.parameters,
-              turn_wear(radii_change(pose, normal, g.arm), g.radii, scene.parameters.overlap_tolerance * overlap), 0.);
+  s.radii1 = seen_from(s.axis, frame, g.radii);
+  TangentFrame seen;
+  seen << s.axis, s.second_axis();
+  give_budget<double>(
+      s, scene.parameters,
+      {RadiiChange<double>(pose, normal, g.arm), seen, s.radii1, scene.parameters.overlap_tolerance * overlap}, {});
+  s.radii1 = s.radii1 - 0.5 * overlap;
   s.weight = p.weight[search.first];
   s.reduced_mass = p.mass[search.first]; // the wall is infinitely heavy
   take_search(s, before, motion_of(search, scene), scene, losses);

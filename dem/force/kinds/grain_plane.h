@@ -18,6 +18,7 @@ struct GrainPlane
   {
   };
   static Hint no_hint() { return {}; }
+  static double least_gap(const Hint &, const ContactSearch &, const ContactScene &) { return 0.; } // unknown
 
   static constexpr bool second_is_wall = true;
   static constexpr bool is_interleaved = false; // all contacts of a wall add to the same load

@@ -19,6 +19,7 @@ struct SphereSphere : BetweenParts
   {
   };
   static Hint no_hint() { return {}; }
+  static double least_gap(const Hint &, const ContactSearch &, const ContactScene &) { return 0.; } // unknown
 
   static constexpr std::size_t search_group = 16;
 
