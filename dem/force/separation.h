@@ -2,8 +2,6 @@
 
 #include "dem/force/contact_search.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace bergamo::dem
@@ -40,19 +38,13 @@ private:
   {
     const Particles &p = scene.particles;
     const Vec3 branch = p.part_position(pair.second_part) + p.cell.place[pair.image] - p.part_position(pair.first_part);
-    return direction.dot(branch) - turning_path(p, pair.first_part) - turning_path(p, pair.second_part);
+    return direction.dot(branch) - turned_height(p, pair.first_part) - turned_height(p, pair.second_part);
   }
 
-  /// Bounds what the turns since the start have changed of a part's height above its centre [m]: a turn by an angle
-  /// changes it by the angle times the part of the arm beside the normal, whose square is arm^2 - height^2.
-  static double turning_path(const Particles &p, const std::int32_t part)
+  /// Bounds what the turns since the start have changed of a part's height above its centre [m].
+  static double turned_height(const Particles &p, const std::int32_t part)
   {
-    const Superquadric &shape = p.parts.shape[part];
-    const double radius = p.parts.bounding_radius[part];
-    // The support function is the norm of (r1 n1, r2 n2, r3 n3) of dual exponents: least for an octahedron.
-    const auto share = [](const double exponent) { return exponent > 1. ? std::sqrt(0.5) : 1.; };
-    const double height = share(shape.eps1) * share(shape.eps2) * shape.half_axes.minCoeff();
-    return p.turned[p.parts.particle[part]] * std::sqrt(std::max(radius * radius - height * height, 0.));
+    return p.turned[p.parts.particle[part]] * p.parts.swing[part];
   }
 };
 

@@ -93,6 +93,15 @@ double bounding_radius(const Superquadric &shape)
   return largest_plane_radius(plane_radius, shape.half_axes[2], shape.eps2);
 }
 
+double largest_swing(const Superquadric &shape)
+{
+  // The support height is the norm of (r1 n1, r2 n2, r3 n3) of dual exponents: least for an octahedron.
+  const auto share = [](const double exponent) { return exponent > 1. ? std::sqrt(0.5) : 1.; };
+  const double radius = bounding_radius(shape),
+               height = share(shape.eps1) * share(shape.eps2) * shape.half_axes.minCoeff();
+  return std::sqrt(std::max(radius * radius - height * height, 0.));
+}
+
 double equivalent_radius(const Superquadric &shape)
 {
   return equivalent_radius(volume(shape));

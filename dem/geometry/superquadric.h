@@ -42,6 +42,10 @@ Vec3 inertia_per_density(const Superquadric &shape);
 /// Radius of the smallest sphere about the centre that contains the body [m], Wellmann (A.1.1).
 double bounding_radius(const Superquadric &shape);
 
+/// Bound of the change of the support height in a fixed direction over a radian of the body's turn [m]: the part of the
+/// arm beside the direction, whose square is arm^2 - height^2.
+double largest_swing(const Superquadric &shape);
+
 /// Radius of the sphere of equal volume [m].
 double equivalent_radius(const Superquadric &shape);
 double equivalent_radius(double volume);

@@ -91,6 +91,7 @@ void Particles::add(const Clump &clump, const double density, const Vec3 &new_po
     parts.turn.push_back(part.orientation);
     parts.bounding_radius.push_back(radius);
     parts.reach.push_back(part.position.norm() + radius);
+    parts.swing.push_back(largest_swing(part.shape));
     parts.motion.push_back(0.);
   }
   first_part.push_back(static_cast<std::int32_t>(parts.size()));

@@ -20,7 +20,8 @@ struct Parts
   std::vector<Quaternion> turn;        ///< the part's frame to the particle's
   std::vector<double> bounding_radius; ///< about the part's centre [m]
   std::vector<double> reach;           ///< of the part's surface from the particle's centre, at most [m]
-  std::vector<double> motion;          ///< path that bounds the motion of any surface point since the start [m]
+  std::vector<double> swing;  ///< change of a part's height above its centre over a radian of turn, at most [m]
+  std::vector<double> motion; ///< path that bounds the motion of any surface point since the start [m]
 
   std::size_t size() const { return shape.size(); }
 
@@ -38,6 +39,7 @@ struct Parts
     visit("turn", self.turn);
     visit("bounding_radius", self.bounding_radius);
     visit("reach", self.reach);
+    visit("swing", self.swing);
     visit("motion", self.motion);
   }
 
