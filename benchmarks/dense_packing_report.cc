@@ -112,6 +112,10 @@ void print(const EngineResult &result, const int n_grains)
   std::printf("  Verlet pairs %zu, contacts %zu, coordination %.3f, rebuilds %lld\n", run.n_pairs, run.n_contacts,
               2. * run.n_contacts / n_grains, static_cast<long long>(run.n_rebuilds));
   std::printf("  searches per contact and step %.4g\n", searches_per_contact(run));
+  const auto a_grain = [&](const std::size_t bytes) { return double(bytes) / n_grains; };
+  std::printf("  bytes a grain and step %.0f: contacts %.0f, candidates %.0f, grains %.0f; %.2f GB/s a core\n",
+              a_grain(run.bytes.sum()), a_grain(run.bytes.contacts), a_grain(run.bytes.candidates),
+              a_grain(run.bytes.grains), 1e-9 * a_grain(run.bytes.sum()) * rate(result, n_grains).median);
   std::printf("  %-38s %12s %12s %12s\n", "", "min", "median", "max");
   print_spread("particle-steps per second and core", rate(result, n_grains));
   print_spread("ns per contact and step", contact_time(result));
@@ -158,6 +162,7 @@ ordered_json to_json(const EngineResult &result, const int n_grains)
                     {"contacts", run.n_contacts},
                     {"coordination_number", 2. * run.n_contacts / n_grains},
                     {"rebuilds", run.n_rebuilds},
+                    {"bytes_per_grain_and_step", double(run.bytes.sum()) / n_grains},
                     {"searches_per_contact_and_step", searches_per_contact(run)},
                     {"particle_steps_per_second_and_core", to_json(rate(result, n_grains))},
                     {"ns_per_contact_and_step", to_json(contact_time(result))}};

@@ -27,4 +27,16 @@ struct Phase
 /// Time spent in each phase of the step; empty if the engine does not measure it.
 std::vector<Phase> phase_times(const dem::Simulation &simulation);
 
+/// Bytes of memory that a step without searches moves, if the cache holds what a pass over the contacts or the grains
+/// uses twice, and nothing from one pass to the next.
+struct StepBytes
+{
+  std::size_t contacts = 0;   ///< followed: states, bodies, what they add to
+  std::size_t candidates = 0; ///< screened
+  std::size_t grains = 0;     ///< their motion, seen by the contacts and screening, their sums and the leapfrog
+
+  std::size_t sum() const { return contacts + candidates + grains; }
+};
+StepBytes step_bytes(const dem::Simulation &simulation);
+
 } // namespace bergamo::benchmark

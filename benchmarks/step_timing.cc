@@ -25,6 +25,7 @@ StepTiming time_steps(const dem::Simulation &packing, const int n_steps)
                     n_touching(simulation),
                     simulation.contacts.n_searches() - n_searches,
                     simulation.n_rebuilds() - n_rebuilds,
+                    step_bytes(simulation),
                     phase_times(simulation)};
   for (std::size_t k = 0; k < before.size(); ++k)
     timing.phases[k].seconds -= before[k].seconds;

@@ -14,6 +14,7 @@ struct StepTiming
   double seconds = 0.;                     ///< wall clock
   std::size_t n_pairs = 0, n_contacts = 0; ///< Verlet pairs and touching ones, at the end
   std::int64_t n_searches = 0, n_rebuilds = 0;
+  StepBytes bytes; ///< of one step
   std::vector<Phase> phases;
 };
 
