@@ -92,7 +92,7 @@ bool TriaxialRun::load()
   History history = run.history(table);
   const dem::StrainProgram &program = parameters.program;
   const double dt = parameters.simulation.time_step;
-  const auto n_steps = static_cast<std::int64_t>(std::ceil(program.end_time() / dt - 1e-9));
+  const std::int64_t n_steps = parameters.loading_steps();
   const auto sample = [&]
   {
     now = specimen->measure(time());

@@ -121,6 +121,14 @@ class BadInput(Case):
         self.assert_refused(["Output/step share=1.5"], "step share", "1.5")
         self.assert_refused(["Ground/element degree=3"], "element degree", "3")
 
+    def test_numbers_that_overflow(self):
+        """What would take more steps or elements than there are numbers is refused by the parameter's name."""
+        self.assert_refused(["Footing/loading time=1e30"], "Footing/loading time is 1e+30 s", "steps")
+        for setting in ("Ground/width=1e30", "Ground/depth=1e10", "Footing/width=1e-9"):
+            with self.subTest(setting):
+                self.assert_refused([setting, "Footing/settlement=1e-10"], "Ground/width", "Ground/depth",
+                                    "more than can be numbered")
+
     def test_ground_that_cannot_rest(self):
         """K0 far from what the ground bears: refused with the place, before a file is written."""
         self.assert_refused(["Ground/gravity=9.81", "Ground/earth pressure at rest=0", "Continuum/cohesion=1e3"],

@@ -176,6 +176,9 @@ class BadInput(Case):
             "Continuum/dilation angle=40": ("dilation", "40"),
             "Coupling/penalty=-1": ("penalty", "-1"),
             "Loading/axial strain=nan": ("axial strain", "nan"),
+            "Loading/isotropic time=1e30": ("Loading/isotropic time", "1e+30", "steps"),
+            "Loading/time step=1e-300": ("Loading/time step", "1e-300", "steps"),
+            "Model/edge=1000": ("number of grains", "2^31"),
         }
         for setting, words in mistakes.items():
             with self.subTest(setting):
