@@ -23,6 +23,7 @@ public:
   {
     if (run.keep([this](StateVisitor &v) { visit(v); }))
       return;
+    require_stable_continuum(p);
     if (p.has_grains())
       packing.emplace(begin_packing(p));
     start.box = {Vec3::Zero(), Vec3::Constant(p.edge)};

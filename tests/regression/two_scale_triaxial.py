@@ -186,8 +186,13 @@ class BadInput(Case):
                 self.assertFalse(out.exists())
 
     def test_continuum_time_step(self):
-        result = self.run_driver(self.tmp / "run", "--set", "Model/kind=continuum", "--set", "Loading/time step=1e-4")
-        self.assert_refused(result, "time step", "0.0001", "stable")
+        """Refused at once: before the grains are packed, and before anything is written."""
+        for kind in ("continuum", "two-scale"):
+            with self.subTest(kind):
+                result = self.run_driver(self.tmp / "run", "--set", f"Model/kind={kind}", "--set",
+                                         "Loading/time step=5e-7", "--set", "Continuum/Young's modulus=1e11")
+                self.assert_refused(result, "Loading/time step is 5e-07 s", "stable step of the continuum")
+                self.assertFalse((self.tmp / "run").exists())
 
     def test_files(self):
         out = self.tmp / "run"
