@@ -48,7 +48,7 @@ bool SampleRun::run()
 {
   const bool goes_on = std::filesystem::exists(snapshot.path());
   if (goes_on)
-    snapshot.read([this](StateVisitor &v) { visit(v); });
+    go_on();
   else
     begin();
   const auto opened = [&](const char *name, const std::vector<std::string> &columns)
@@ -93,6 +93,18 @@ bool SampleRun::run()
   f.wall_time += wall_clock() - clock;
   progress.fraction = 1.;
   return true;
+}
+
+void SampleRun::go_on()
+{
+  try
+  {
+    snapshot.read([this](StateVisitor &v) { visit(v); });
+  }
+  catch (const RunError &error)
+  {
+    throw RunError(std::string(error.what()) + "; or remove it, and --restart begins the sample anew");
+  }
 }
 
 void SampleRun::begin()
