@@ -105,6 +105,10 @@ void check(CommandLine &command_line, const std::string &driver)
   if (command_line.force && command_line.restart)
     throw ConfigError("--force and --restart contradict each other; --restart goes on with the run in the folder, "
                       "--force begins a new one");
+  if (command_line.output.string().starts_with("-"))
+    throw ConfigError("--output " + command_line.output.string() +
+                      " names no folder: --output needs one behind it (a name that begins with '-' is written "
+                      "./-name)");
   for (const std::string &setting : command_line.settings)
     if (setting.find('=') == std::string::npos)
       throw ConfigError("--set \"" + setting + "\" has no '='; write --set \"Section/Name=value\"");
