@@ -118,6 +118,8 @@ class BadInput(Case):
         self.assert_refused(["Ground/width=0.8"], "Ground/width is 0.8", "Footing/width")
         self.assert_refused(["Footing/settlement=0.5"], "Footing/settlement is 0.5")
         self.assert_refused(["Continuum/cohesion=0"], "cohesion", "no strength")
+        self.assert_refused(["Continuum/cohesion=0", "Continuum/friction angle=30"], "bears no footing",
+                            "Continuum/cohesion", "Ground/surcharge", "Ground/gravity")
         self.assert_refused(["Output/step share=1.5"], "step share", "1.5")
         self.assert_refused(["Ground/element degree=3"], "element degree", "3")
 
