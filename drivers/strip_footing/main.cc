@@ -133,5 +133,5 @@ int main(int argc, char **argv)
        "Presses a strip footing into Mohr-Coulomb ground in plane strain, from the ground at rest to the "
        "limit load, and compares it with the closed form."},
       [](const CommandLine &command_line)
-      { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line); });
+      { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line, true); });
 }

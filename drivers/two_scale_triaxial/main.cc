@@ -5,7 +5,6 @@
 #include "drivers/two_scale_triaxial/specimen.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace
 {

@@ -7,6 +7,7 @@ Usage: strip_footing.py PROGRAM [TOPIC]
 
 import csv
 import json
+import shlex
 import shutil
 import signal
 import subprocess
@@ -102,6 +103,20 @@ class Restart(Case):
         summaries = [json.loads((self.tmp / name / "summary.json").read_text()) for name in ("whole", "parts")]
         for name in ("bearing_pressure_Pa", "energy_residual"):
             self.assertEqual(summaries[0][name], summaries[1][name])
+
+
+class Mpi(Case):
+    def test_where_it_cannot_start(self):
+        """One message with the remedy instead of MPI's own pages."""
+        for limit, words in {"export TMPDIR=/proc/none": ("TMPDIR", "/proc/none"), "ulimit -n 20": ("20 files", "ulimit -n 64")}.items():
+            with self.subTest(limit):
+                result = subprocess.run(["bash", "-c", f"{limit}; exec {shlex.join(self.command(self.tmp / 'run'))}"],
+                                        capture_output=True, text=True)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                for word in words:
+                    self.assertIn(word, result.stderr)
+                self.assertFalse((self.tmp / "run").exists())
 
 
 class BadInput(Case):
