@@ -48,7 +48,9 @@ std::string footer(const std::string &name)
          "  " +
          name + " " + name + ".prm continuum.prm\n  " + name + " " + name +
          ".prm --set \"Run/seed=2\" --output results/second --threads 2\n\n"
-         "Ctrl-C ends the step, writes a snapshot and says how to go on; a second Ctrl-C ends the program at once.\n"
+         "Ctrl-C ends the step, writes a snapshot and says how to go on; a second Ctrl-C, or the first one where no "
+         "step\n"
+         "has begun, ends the program at once.\n"
          "Exit status: 0 done, 1 the run failed, 2 a mistake on the command line or in the parameters,\n"
          "             130 stopped by Ctrl-C.";
 }

@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -103,6 +104,26 @@ class Restart(Case):
         summaries = [json.loads((self.tmp / name / "summary.json").read_text()) for name in ("whole", "parts")]
         for name in ("bearing_pressure_Pa", "energy_residual"):
             self.assertEqual(summaries[0][name], summaries[1][name])
+
+
+class StaticStart(Case):
+    def test_interrupt(self):
+        """The first Ctrl-C ends it: nothing is written yet that one could go on from."""
+        out = self.tmp / "run"
+        settings = ["Ground/gravity=9.81", "Ground/elements under half the footing=100"]  # a start of many seconds
+        process = subprocess.Popen(self.command(out, settings), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+        def catches_interrupts():
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            return int(status.split("SigCgt:")[1].split()[0], 16) >> (signal.SIGINT - 1) & 1
+
+        while process.poll() is None and not catches_interrupts():
+            time.sleep(0.001)
+        process.send_signal(signal.SIGINT)
+        _, stderr = process.communicate()
+        self.assertEqual(process.returncode, -signal.SIGINT, stderr)
+        self.assertIn("stopped", stderr)
+        self.assertFalse(out.exists())
 
 
 class Mpi(Case):
