@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace bergamo::dem
@@ -45,13 +46,30 @@ Vec3 wall_pressure(const std::vector<PlaneWall> &walls)
 namespace
 {
 
-/// Sum of the normal stiffnesses of each wall's contacts [N/m].
-std::vector<double> wall_stiffness(const Simulation &simulation)
+/// Sum of the impedances of each wall's contacts, sqrt(stiffness times mass) [N s/m].
+std::vector<double> wall_impedance(const Simulation &simulation)
 {
   std::vector<double> sum(simulation.walls.size(), 0.);
   for (const TouchingContact &contact : simulation.contacts.touching_walls(simulation.particles))
-    sum[contact.wall] += 1.5 * contact.state.stiffness.normal * std::sqrt(contact.state.overlap);
+  {
+    const ContactView &s = contact.state;
+    sum[contact.wall] += s.weight * std::sqrt(1.5 * s.stiffness.normal * std::sqrt(s.overlap) * s.reduced_mass);
+  }
   return sum;
+}
+
+/// Mass of a piston: heavy beside the grains that touch it, so that no single one throws it back [kg].
+double piston_mass(const Particles &grains)
+{
+  constexpr double share = 0.2; // of the packing; 0.02 of 80 grains shakes, 0.05 does not
+  return share * std::accumulate(grains.mass.begin(), grains.mass.end(), 0.);
+}
+
+/// A wall that is faster throws the grains about with more than the pressure [m/s].
+double speed_of_pressure(const double pressure, const double density)
+{
+  constexpr double share = 0.5;
+  return share * std::sqrt(pressure / density);
 }
 
 } // namespace
@@ -75,24 +93,26 @@ Compression::Compression(const CompressionParameters &parameters) : p(parameters
 void Compression::step(Simulation &simulation)
 {
   constexpr std::int64_t check_interval = 50; // steps
-  constexpr double gain = 0.05;               // share of the miss that the wall's contacts make up in a step
+  constexpr double absorption = 0.2;          // of the contacts' impedance; 1 takes up every wave but creeps
 
   simulation.compute_forces();
-  const double dt = simulation.parameters().time_step;
+  const double dt = simulation.parameters().time_step, mass = piston_mass(simulation.particles);
+  const double most = speed_of_pressure(p.pressure, simulation.parameters().grain().density);
   const Vec3 pressure = wall_pressure(simulation.walls);
   const Vec3 edges = box_between(simulation.walls).edges();
-  const std::vector<double> stiffness = wall_stiffness(simulation);
+  const std::vector<double> impedance = wall_impedance(simulation);
   bool pressures_hold = true;
   for (int d = 0; d < 3; ++d)
   {
-    const double area = edges.prod() / edges[d];
+    PlaneWall &low = simulation.walls[2 * d], &high = simulation.walls[2 * d + 1];
     const double miss = p.pressure - pressure[d];
     pressures_hold = pressures_hold && std::abs(miss) < p.pressure_tolerance * p.pressure;
-    const double fastest = 0.5 * edges[d] * p.largest_rate;
-    const double shared = std::max(stiffness[2 * d], stiffness[2 * d + 1]) * dt;
-    const double speed = shared > 0. ? std::clamp(gain * miss * area / shared, -fastest, fastest) : fastest;
-    simulation.walls[2 * d].velocity = speed * Vec3::Unit(d);
-    simulation.walls[2 * d + 1].velocity = -speed * Vec3::Unit(d);
+    const double push = miss * edges.prod() / edges[d];
+    const double dashpot = absorption * 0.5 * (impedance[2 * d] + impedance[2 * d + 1]);
+    const double fastest = std::min(0.5 * edges[d] * p.largest_rate, most);
+    const double speed = (mass * low.velocity[d] + push * dt) / (mass + dashpot * dt); // the dashpot at its end
+    low.velocity = std::clamp(speed, -fastest, fastest) * Vec3::Unit(d);
+    high.velocity = -low.velocity;
   }
   if (simulation.n_steps % check_interval == 0)
   {

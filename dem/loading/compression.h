@@ -30,9 +30,12 @@ struct CompressionParameters
   void validate() const;
 };
 
-/// Compresses the grains of a box between its six walls to a given isotropic pressure. A wall moves at a speed
-/// proportional to what its pressure misses, over the stiffness of its own contacts: a small share of the miss is made
-/// up in each step, so that the walls neither chatter nor overshoot whatever the grains' stiffness.
+/// Compresses the grains of a box between its six walls to a given isotropic pressure. The walls of a direction are
+/// pistons that move in opposition: pushed by what the pressure misses, braked by a dashpot that takes up a part of the
+/// waves which reach them. Pistons only take energy out but for the work of the pressure, so they come to rest with any
+/// stiffness, size, density and damping of the grains and with any time step that the contacts bear; a speed set by the
+/// miss over the stiffness of a wall's contacts would shake where steps are short, as their dashpots then answer it
+/// with more than the miss. No wall is faster than the pressure could push the grains, sqrt(p/rho)/2.
 class Compression
 {
 public:

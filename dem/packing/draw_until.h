@@ -18,6 +18,7 @@ template <class Draw>
 auto draw_until(const double solid_volume, const Draw &draw)
 {
   constexpr std::size_t largest_number = std::numeric_limits<std::int32_t>::max();
+  constexpr std::size_t enough_to_tell = 1000; // how many it will be, long before the memory is full
   require(solid_volume > 0. && std::isfinite(solid_volume), "solid volume of the grains", solid_volume,
           "positive and finite [m^3]");
   std::vector<decltype(draw())> grains;
@@ -30,9 +31,9 @@ auto draw_until(const double solid_volume, const Draw &draw)
       return grains;
     sum += v;
     grains.push_back(std::move(grain));
-    require(grains.size() < largest_number, "number of grains of the solid volume",
-            std::round(solid_volume / sum * static_cast<double>(grains.size())),
-            "below 2^31; take larger grains or a smaller space");
+    const double expected = std::round(solid_volume / sum * static_cast<double>(grains.size()));
+    require(grains.size() < largest_number && (grains.size() != enough_to_tell || expected < largest_number),
+            "number of grains of the solid volume", expected, "below 2^31; take larger grains or a smaller space");
   }
 }
 

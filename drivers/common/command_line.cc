@@ -48,7 +48,9 @@ std::string footer(const std::string &name)
          "  " +
          name + " " + name + ".prm continuum.prm\n  " + name + " " + name +
          ".prm --set \"Run/seed=2\" --output results/second --threads 2\n\n"
-         "Ctrl-C ends the step, writes a snapshot and says how to go on; a second Ctrl-C ends the program at once.\n"
+         "Ctrl-C ends the step, writes a snapshot and says how to go on; a second Ctrl-C, or the first one where no "
+         "step\n"
+         "has begun, ends the program at once.\n"
          "Exit status: 0 done, 1 the run failed, 2 a mistake on the command line or in the parameters,\n"
          "             130 stopped by Ctrl-C.";
 }
@@ -105,6 +107,10 @@ void check(CommandLine &command_line, const std::string &driver)
   if (command_line.force && command_line.restart)
     throw ConfigError("--force and --restart contradict each other; --restart goes on with the run in the folder, "
                       "--force begins a new one");
+  if (command_line.output.string().starts_with("-"))
+    throw ConfigError("--output " + command_line.output.string() +
+                      " names no folder: --output needs one behind it (a name that begins with '-' is written "
+                      "./-name)");
   for (const std::string &setting : command_line.settings)
     if (setting.find('=') == std::string::npos)
       throw ConfigError("--set \"" + setting + "\" has no '='; write --set \"Section/Name=value\"");

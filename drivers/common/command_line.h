@@ -32,7 +32,8 @@ struct DriverDescription
 
 /// Reads the command line. Returns nothing when --help was asked for; its text is then on standard output.
 /// Throws ConfigError with the remedy for unknown or contradicting options, a number of threads below 1 or above four
-/// for a core, a missing parameter file, one given twice or a malformed --set.
+/// for a core, an output folder that is an option's name, a missing parameter file, one given twice or a malformed
+/// --set.
 std::optional<CommandLine> parse_command_line(int argc, const char *const *argv, const DriverDescription &description);
 
 } // namespace bergamo::driver

@@ -1,7 +1,9 @@
 #include "drivers/common/driver_main.h"
 
 #include "dem/core/error.h"
+#include "drivers/common/dealii_start.h"
 #include "drivers/common/interrupt.h"
+#include "drivers/common/mpi_start.h"
 #include "fe_dealii/mpi_session.h"
 
 #include <omp.h>
@@ -49,7 +51,7 @@ int guarded(const std::function<int()> &job)
 
 } // namespace
 
-int run_driver(int argc, char **argv, const DriverDescription &description,
+int run_driver(const int argc, const char *const *const argv, const DriverDescription &description,
                const std::function<int(const CommandLine &)> &job)
 {
   return guarded(
@@ -58,12 +60,23 @@ int run_driver(int argc, char **argv, const DriverDescription &description,
         const auto command_line = parse_command_line(argc, argv, description);
         if (!command_line)
           return static_cast<int>(done);
-        const fe::MpiSession mpi(argc, argv);
+        start_dealii();
         if (command_line->threads)
           omp_set_num_threads(*command_line->threads);
         install_interrupt_handler();
-        return guarded([&] { return job(*command_line); }); // inside, so that MPI ends after the message
+        return job(*command_line);
       });
+}
+
+int run_with_mpi(const std::function<int()> &job)
+{
+  require_mpi_can_start();
+  char program[] = "bergamo";
+  char *words[] = {program, nullptr};
+  char **argv = words;
+  int argc = 1;
+  const fe::MpiSession mpi(argc, argv);
+  return guarded(job); // inside, so that MPI ends after the message
 }
 
 bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)

@@ -18,12 +18,16 @@ enum ExitStatus : int
   stopped_by_user = 130
 };
 
-/// The frame of every driver's main(): reads the command line, sets the number of OpenMP threads, starts MPI and
-/// deal.II (one thread of its own), catches the signals that stop a run, runs the job, and turns exceptions into one
-/// message "error: …" on standard error: ConfigError gives user_mistake, any other
-/// exception run_failed. Otherwise returns what the job returns.
-int run_driver(int argc, char **argv, const DriverDescription &description,
+/// The frame of every driver's main(): reads the command line, sets the number of OpenMP threads, starts deal.II (one
+/// thread of its own), catches the signals that stop a run, runs the job, and turns exceptions into one message "error:
+/// …" on standard error: ConfigError gives user_mistake, any other exception run_failed. Otherwise returns what the job
+/// returns.
+int run_driver(int argc, const char *const *argv, const DriverDescription &description,
                const std::function<int(const CommandLine &)> &job);
+
+/// Runs what needs MPI (fe_dealii/equilibrium) within a session of it, and turns exceptions into a message there.
+/// @throws ConfigError where MPI could not start
+int run_with_mpi(const std::function<int()> &job);
 
 /// Reads the parameter files in the order given, each over those before it, and then the --set options of the command
 /// line. Returns false when only the defaults were
@@ -32,9 +36,9 @@ bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)
 
 /// The job of most drivers: reads and checks its parameters, then has a Job made of them go. A set of Parameters has
 /// declare() and validate(); a Job is made of it, the command line and the resolved text of the parameters, and its
-/// go() gives the exit status. @param title first line of the parameter file
+/// go() gives the exit status. @param title first line of the parameter file @param needs_mpi see run_with_mpi()
 template <class Parameters, class Job>
-int run_job(const std::string &title, const CommandLine &command_line)
+int run_job(const std::string &title, const CommandLine &command_line, const bool needs_mpi = false)
 {
   Parameters parameters;
   ParameterFile file(title);
@@ -42,7 +46,8 @@ int run_job(const std::string &title, const CommandLine &command_line)
   if (!read_parameters(file, command_line))
     return done;
   parameters.validate();
-  return Job(parameters, command_line, file.resolved_text()).go();
+  const auto go = [&] { return Job(parameters, command_line, file.resolved_text()).go(); };
+  return needs_mpi ? run_with_mpi(go) : go();
 }
 
 } // namespace bergamo::driver

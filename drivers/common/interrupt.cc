@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <string_view>
@@ -13,22 +14,30 @@ namespace
 {
 
 volatile std::sig_atomic_t received_signal = 0;
+std::atomic<int> n_watches = 0;
+static_assert(std::atomic<int>::is_always_lock_free); // read by the signal handler
+
+void say(const std::string_view message)
+{
+  const int saved_errno = errno;
+  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, message.data(), message.size());
+  errno = saved_errno;
+}
 
 extern "C" void on_signal(const int signal_number) // only calls that are safe in a signal handler
 {
   if (received_signal != 0 && signal_number == SIGHUP) // comes in twos, or with SIGTERM, from shells and systemd
     return;
-  if (received_signal != 0)
+  if (received_signal != 0 || n_watches == 0)
   {
+    if (received_signal == 0)
+      say("\nstopped; there was nothing yet to go on from\n");
     std::signal(signal_number, SIG_DFL);
     std::raise(signal_number);
     return;
   }
   received_signal = signal_number;
-  const int saved_errno = errno;
-  constexpr std::string_view message = "\nstopping after this step; Ctrl-C again ends the program at once\n";
-  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, message.data(), message.size());
-  errno = saved_errno;
+  say("\nstopping after this step; Ctrl-C again ends the program at once\n");
 }
 
 } // namespace
@@ -45,6 +54,16 @@ void install_interrupt_handler()
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) // nohup: the run is to outlive its terminal
     sigaction(SIGHUP, &action, nullptr);
+}
+
+InterruptWatch::InterruptWatch()
+{
+  ++n_watches;
+}
+
+InterruptWatch::~InterruptWatch()
+{
+  --n_watches;
 }
 
 bool interrupted()

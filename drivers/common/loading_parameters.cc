@@ -6,7 +6,8 @@ namespace bergamo::driver
 void declare_compression(ParameterFile &file, dem::CompressionParameters &compression)
 {
   file.add("Packing", "pressure", compression.pressure, "isotropic pressure of the packing [Pa]", Range::positive());
-  file.add("Packing", "largest strain rate", compression.largest_rate, "of the walls [1/s]",
+  file.add("Packing", "largest strain rate", compression.largest_rate,
+           "of the walls, which are no faster than the pressure could push the grains [1/s]",
            {.lowest = 0, .highest = 1000, .lowest_included = false});
   file.add("Packing", "pressure tolerance", compression.pressure_tolerance, "relative", Range::strictly_between(0, 1));
   file.add("Packing", "force tolerance", compression.force_tolerance, "mean unbalanced over mean contact force",

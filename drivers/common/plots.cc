@@ -156,6 +156,7 @@ Outcome run(const std::vector<std::string> &command)
 
 PlotResult make_plots(const std::vector<PlotJob> &jobs)
 {
+  const InterruptWatch watch;
   PlotResult result;
   for (const PlotJob &job : jobs)
   {

@@ -120,11 +120,9 @@ RunFolder::RunFolder(fs::path path, const FolderMode mode, std::vector<std::stri
 {
   check_writable(folder);
   std::error_code ignored;
-  const bool exists = fs::exists(folder, ignored);
-  if (mode == FolderMode::fresh && exists && !content(folder).empty())
-    throw ConfigError("output folder '" + folder.string() +
-                      "' is not empty; choose another one with --output, go on with the run in it with --restart, or "
-                      "begin anew with --force (the run in it then moves to its sub-folder previous_run)");
+  if (fs::exists(folder, ignored))
+    keep_others_out();
+  require_empty();
   if (mode == FolderMode::restart && !fs::exists(folder / "snapshot.h5", ignored))
     throw ConfigError("--restart finds no snapshot.h5 in '" + folder.string() +
                       "'; check --output, or begin a new run without --restart");
@@ -135,10 +133,35 @@ RunFolder::RunFolder(const CommandLine &command_line, std::vector<std::string> o
 {
 }
 
-RunFolder::~RunFolder()
+RunFolder::Descriptor::~Descriptor()
 {
-  if (lock >= 0)
-    ::close(lock);
+  if (number >= 0)
+    ::close(number);
+}
+
+RunFolder::Descriptor &RunFolder::Descriptor::operator=(Descriptor &&other) noexcept
+{
+  std::swap(number, other.number);
+  return *this;
+}
+
+void RunFolder::keep_others_out()
+{
+  lock = Descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (lock.number < 0)
+    throw RunError(file_error("open folder", folder, errno));
+  if (::flock(lock.number, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw ConfigError("another run is writing to '" + folder.string() +
+                      "'; wait for its end, or choose another folder with --output");
+}
+
+void RunFolder::require_empty() const
+{
+  std::error_code ignored;
+  if (mode == FolderMode::fresh && fs::exists(folder, ignored) && !content(folder).empty())
+    throw ConfigError("output folder '" + folder.string() +
+                      "' is not empty; choose another one with --output, go on with the run in it with --restart, or "
+                      "begin anew with --force (the run in it then moves to its sub-folder previous_run)");
 }
 
 void RunFolder::open()
@@ -146,12 +169,9 @@ void RunFolder::open()
   try
   {
     fs::create_directories(folder);
-    lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock < 0)
-      throw RunError(file_error("open folder", folder, errno));
-    if (::flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw ConfigError("another run is writing to '" + folder.string() +
-                        "'; wait for its end, or choose another folder with --output");
+    if (lock.number < 0) // the folder is new; another run may have made it, and have ended, since the constructor
+      keep_others_out();
+    require_empty();
     if (mode == FolderMode::force)
       move_aside(folder, own);
     remove_parts(folder);

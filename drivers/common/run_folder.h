@@ -20,7 +20,8 @@ enum class FolderMode
 /// The folder that one run writes.
 ///
 /// Made in two steps, so that a mistake in the parameters never costs results: the constructor only checks, open()
-/// changes the disk and belongs after all validation, right before the first file is written.
+/// changes the disk and belongs after all validation, right before the first file is written. Other runs are kept out
+/// of the folder for the life of this object, from the constructor on where the folder is there already.
 ///
 /// With `force`, open() moves what an earlier run left to the sub-folder previous_run, which replaces an older one: the
 /// files of every run (parameters.prm, history.csv, summary.json, snapshot.h5, NAME_0000.vtu, NAME.pvd, plots/) and
@@ -29,19 +30,15 @@ class RunFolder
 {
 public:
   /// Throws ConfigError with the remedy when the path is no folder, may not be written, is not empty (`fresh`), or has
-  /// no snapshot.h5 (`restart`). Leaves the disk as it was.
+  /// no snapshot.h5 (`restart`), or when another run is writing there. Leaves the disk as it was.
   /// @param own names of the files and folders that the driver writes beside those of every run
   RunFolder(std::filesystem::path path, FolderMode mode, std::vector<std::string> own = {});
 
   /// The folder and mode that the command line asks for.
   explicit RunFolder(const CommandLine &command_line, std::vector<std::string> own = {});
 
-  ~RunFolder();
-  RunFolder(const RunFolder &) = delete;
-  RunFolder &operator=(const RunFolder &) = delete;
-
-  /// Makes the folder, clears it as the mode says, removes parts that a killed run left, and keeps other runs out of it
-  /// for the life of this object. Throws ConfigError when another run is writing there, RunError when the system
+  /// Makes the folder, clears it as the mode says, removes parts that a killed run left. Throws ConfigError when
+  /// another run is writing there, or has written there since the constructor (`fresh`), RunError when the system
   /// refuses.
   void open();
 
@@ -53,10 +50,24 @@ public:
   std::filesystem::path snapshot() const { return file("snapshot.h5"); }
 
 private:
+  /// Closed at the end, also where the constructor of the folder throws.
+  struct Descriptor
+  {
+    explicit Descriptor(int n = -1) : number(n) {}
+    ~Descriptor();
+    Descriptor(const Descriptor &) = delete;
+    Descriptor &operator=(Descriptor &&other) noexcept;
+
+    int number;
+  };
+
+  void keep_others_out();
+  void require_empty() const;
+
   std::filesystem::path folder;
   FolderMode mode;
   std::vector<std::string> own;
-  int lock = -1; ///< descriptor of the locked folder
+  Descriptor lock; ///< of the folder
 };
 
 } // namespace bergamo::driver

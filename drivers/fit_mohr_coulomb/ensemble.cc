@@ -100,6 +100,21 @@ void warn_of_mixture(Ensemble &ensemble)
 
 } // namespace
 
+void require_apart(const std::filesystem::path &output, const std::filesystem::path &ensemble)
+{
+  namespace fs = std::filesystem;
+  const auto lies_within = [](const fs::path &path, const fs::path &folder)
+  {
+    const fs::path inner = fs::weakly_canonical(path), outer = fs::weakly_canonical(folder);
+    const auto [in, out] = std::mismatch(inner.begin(), inner.end(), outer.begin(), outer.end());
+    return out == outer.end();
+  };
+  const bool is_same = lies_within(output, ensemble) && lies_within(ensemble, output);
+  if (is_same || lies_within(output, ensemble / "samples") || lies_within(ensemble, output / "previous_run"))
+    throw ConfigError("output folder '" + output.string() + "' would take over the ensemble '" + ensemble.string() +
+                      "' (Ensemble/folder) that the fit reads; choose another folder with --output");
+}
+
 Ensemble read_ensemble(const std::filesystem::path &folder, const SampleChoice &choice)
 {
   const std::filesystem::path list = folder / "ensemble.csv";

@@ -27,6 +27,10 @@ struct Ensemble
   std::vector<std::string> warnings;
 };
 
+/// Throws ConfigError where a run in the output folder could move or delete what the fit reads: the ensemble's folder,
+/// one of its samples', or the one above an ensemble that was moved aside.
+void require_apart(const std::filesystem::path &output, const std::filesystem::path &ensemble);
+
 /// Reads FOLDER/ensemble.csv and, for each finished sample that is chosen, FOLDER/samples/NNNN/history.csv. Warns of
 /// samples left out and of pressures that are not held. Throws ConfigError where a file, a column or a value is
 /// missing, or no sample is left.

@@ -27,6 +27,7 @@ int job(const CommandLine &command_line)
   if (!read_parameters(file, command_line))
     return done;
   parameters.validate();
+  require_apart(command_line.output, parameters.ensemble);
 
   RunFolder folder(command_line,
                    {"fit_mohr_coulomb.json", "continuum.prm", "curves_grains.csv", "curves_continuum.csv"});

@@ -1,7 +1,7 @@
 #include "dem/core/error.h"
 #include "drivers/common/driver_main.h"
 #include "drivers/common/run/run.h"
-#include "drivers/rve_triaxial/sample.h"
+#include "drivers/rve_triaxial/failure_report.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -63,8 +63,8 @@ int Ensemble::go()
   write_table();
   const std::vector<std::shared_ptr<Job>> jobs(samples.begin(), samples.end());
   run_jobs(jobs, std::to_string(samples.size()) + " samples", run.progress());
-  if (const std::string failures = failures_of(jobs, "sample"); !failures.empty())
-    throw RunError("some samples failed; the others are kept, and --restart tries these again:" + failures);
+  if (const std::string report = failure_report(parameters, samples); !report.empty())
+    throw RunError(report);
   if (std::any_of(jobs.begin(), jobs.end(), [](const auto &job) { return !job->is_finished; }))
     return run.stop();
   return run.finish(summary(), {"rve_triaxial/plot.py"});

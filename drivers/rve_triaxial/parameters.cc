@@ -4,6 +4,7 @@
 #include "dem/loading/cell_room.h"
 #include "dem/packing/random_stream.h"
 #include "drivers/common/grain_parameters.h"
+#include "drivers/common/number_text.h"
 
 #include <cmath>
 #include <string>
@@ -96,10 +97,21 @@ std::vector<SampleSettings> RveParameters::samples() const
         for (int k = 0; k < n_samples; ++k)
         {
           const auto number = static_cast<std::int64_t>(all.size()) + 1;
-          const std::uint64_t own = dem::RandomStream::mixed(seed + static_cast<std::uint64_t>(k)) >> 11; // as a double
-          all.push_back({number, own, edge, friction, pressure});
+          const std::uint64_t first = seed + static_cast<std::uint64_t>(k);
+          const std::uint64_t own = dem::RandomStream::mixed(first) >> 11; // as a double
+          all.push_back({number, first, own, edge, friction, pressure});
         }
   return all;
+}
+
+std::string RveParameters::alone(const SampleSettings &sample) const
+{
+  const auto option = [](const std::string &name, const std::string &value)
+  { return "--set \"Ensemble/" + name + "=" + value + "\""; };
+  return option("samples", "1") + " " + option("seed", std::to_string(sample.ensemble_seed)) + " " +
+         option("edges", exact_text(sample.edge)) + " " +
+         option("generation frictions", exact_text(sample.generation_friction)) + " " +
+         option("confining pressures", exact_text(sample.confining_pressure));
 }
 
 std::vector<dem::LoadingStage> RveParameters::program(const SampleSettings &sample) const

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace bergamo::driver
@@ -15,8 +16,9 @@ namespace bergamo::driver
 /// One sample of an ensemble.
 struct SampleSettings
 {
-  std::int64_t number = 1; ///< from 1 on
-  std::uint64_t seed = 1;
+  std::int64_t number = 1;           ///< from 1 on
+  std::uint64_t ensemble_seed = 1;   ///< with which it is the first of an ensemble
+  std::uint64_t seed = 1;            ///< of its random numbers
   double edge = 0.01;                ///< of the cell before its compression [m]
   double generation_friction = 0.15; ///< between grains while the packing is compressed
   double confining_pressure = 25e3;  ///< [Pa]
@@ -57,6 +59,9 @@ struct RveParameters
   /// Every combination of edge, friction and pressure, n_samples times each, with seeds of their own. Samples that
   /// differ in the pressure alone have the same seed, and so the same packing.
   std::vector<SampleSettings> samples() const;
+
+  /// Options with which an ensemble is this sample alone: --set "Ensemble/samples=1" and so on.
+  std::string alone(const SampleSettings &sample) const;
 
   /// Generation and the stages in use, with the sample's friction and pressure.
   std::vector<dem::LoadingStage> program(const SampleSettings &sample) const;

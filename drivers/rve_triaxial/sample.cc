@@ -6,6 +6,7 @@
 #include "dem/measure/contact_list.h"
 #include "dem/measure/solid_fraction.h"
 #include "drivers/common/run/measured_columns.h"
+#include "drivers/common/run/step_count.h"
 #include "drivers/common/run/visit_models.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ bool SampleRun::run()
 {
   const bool goes_on = std::filesystem::exists(snapshot.path());
   if (goes_on)
-    snapshot.read([this](StateVisitor &v) { visit(v); });
+    go_on();
   else
     begin();
   const auto opened = [&](const char *name, const std::vector<std::string> &columns)
@@ -92,6 +93,18 @@ bool SampleRun::run()
   f.wall_time += wall_clock() - clock;
   progress.fraction = 1.;
   return true;
+}
+
+void SampleRun::go_on()
+{
+  try
+  {
+    snapshot.read([this](StateVisitor &v) { visit(v); });
+  }
+  catch (const RunError &error)
+  {
+    throw RunError(std::string(error.what()) + "; or remove it, and --restart begins the sample anew");
+  }
 }
 
 void SampleRun::begin()
@@ -158,8 +171,7 @@ std::int64_t SampleRun::steps_to_next_row() const
                          : here < 1e-3             ? std::min(regular, 2e-5)
                          : here < 1e-2             ? std::min(regular, 2e-4)
                                                    : regular;
-  return std::max<std::int64_t>(
-      1, static_cast<std::int64_t>(spacing / (loading->rate() * simulation->parameters().time_step)));
+  return whole_steps(spacing / (loading->rate() * simulation->parameters().time_step));
 }
 
 std::int64_t SampleRun::steps_to_next_distribution() const
@@ -167,7 +179,7 @@ std::int64_t SampleRun::steps_to_next_distribution() const
   const dem::LoadingStage &s = loading->stage();
   const double spacing = std::abs(s.axial_strain) / parameters.n_distributions;
   const double step = loading->rate() * simulation->parameters().time_step;
-  return s.is_strained() ? std::max<std::int64_t>(1, std::llround(spacing / step)) : 50 * parameters.row_interval;
+  return s.is_strained() ? whole_steps(std::round(spacing / step)) : 50 * parameters.row_interval;
 }
 
 void SampleRun::measure()

@@ -31,6 +31,7 @@ public:
 
 private:
   void visit(StateVisitor &visit);
+  void go_on();
   void begin();
   void make_loading();
   void begin_stage();

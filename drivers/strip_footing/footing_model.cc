@@ -28,9 +28,9 @@ enum Boundary : unsigned int
 fe::ExplicitBody make_ground(const FootingParameters &p)
 {
   const double size = p.element_size();
-  const auto cells = [&](const double length) { return std::max(1u, unsigned(std::lround(length / size))); };
   fe::BoxMeshParameters box;
-  box.subdivisions = {cells(p.ground_width), 1, cells(p.ground_depth)};
+  box.subdivisions = {static_cast<unsigned int>(p.elements_along(p.ground_width)), 1,
+                      static_cast<unsigned int>(p.elements_along(p.ground_depth))};
   box.minimum = {0, 0, -size * box.subdivisions[2]};
   box.maximum = {size * box.subdivisions[0], size, 0};
   dealii::Triangulation<3> mesh;

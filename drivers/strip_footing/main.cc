@@ -3,6 +3,7 @@
 #include "drivers/common/run/energy_residual.h"
 #include "drivers/common/run/model_pictures.h"
 #include "drivers/common/run/run.h"
+#include "drivers/common/run/step_count.h"
 #include "drivers/common/run/visit_models.h"
 #include "drivers/strip_footing/footing_model.h"
 
@@ -66,9 +67,10 @@ void FootingRun::visit(StateVisitor &visit)
 
 int FootingRun::go()
 {
+  const std::int64_t n_steps =
+      steps_over({"Footing/loading time", parameters.loading_time}, {"Output/step share", model.time_step()});
   run.open();
   History history = run.history(table);
-  const auto n_steps = static_cast<std::int64_t>(std::ceil(parameters.loading_time / model.time_step()));
   Stage stage = run.even_stage("settlement", n_steps, model.time_step());
   stage.compute = [&]
   {
@@ -131,5 +133,5 @@ int main(int argc, char **argv)
        "Presses a strip footing into Mohr-Coulomb ground in plane strain, from the ground at rest to the "
        "limit load, and compares it with the closed form."},
       [](const CommandLine &command_line)
-      { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line); });
+      { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line, true); });
 }

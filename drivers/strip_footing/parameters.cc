@@ -4,6 +4,9 @@
 #include "drivers/common/continuum_parameters.h"
 #include "drivers/strip_footing/bearing_capacity.h"
 
+#include <cstdint>
+#include <limits>
+
 namespace bergamo::driver
 {
 
@@ -57,6 +60,15 @@ void FootingParameters::validate() const
   if (ground_depth < element_size())
     reject("Ground/depth is ", ground_depth, " m, less than an element of ", element_size(),
            " m; choose more elements under half the footing or deeper ground");
+  const double unknowns =
+      3. * (degree + 1.) * (degree * elements_along(ground_width) + 1.) * (degree * elements_along(ground_depth) + 1.);
+  if (unknowns > std::numeric_limits<std::uint32_t>::max())
+    reject("the ground would have ", elements_along(ground_width), " x ", elements_along(ground_depth),
+           " elements, more than can be numbered; choose a smaller Ground/width or Ground/depth, or fewer "
+           "Ground/elements under half the footing");
+  if (!(limit_pressure() > 0))
+    reject("the ground bears no footing: Continuum/cohesion is ", continuum.cohesion, ", Ground/surcharge ", surcharge,
+           " and Ground/gravity ", gravity, "; one of them must be positive");
   if (settlement > 0.2 * width)
     reject("Footing/settlement is ", settlement, " m: strains are small up to about a fifth of Footing/width, ",
            0.2 * width, " m");

@@ -4,6 +4,9 @@
 #include "drivers/common/parameter_file.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace bergamo::driver
 {
 
@@ -41,6 +44,7 @@ struct FootingParameters
   /// Edge of an element [m]. The settlement falls from that of the last node held to nothing over the element beside
   /// the footing, so that half of that element counts as covered (as in Itasca's FLAC).
   double element_size() const { return 0.5 * width / (elements_across + 0.5); }
+  double elements_along(const double length) const { return std::max(1., std::round(length / element_size())); } // [m]
   double ramp_time() const { return ramp * loading_time; }                         ///< [s]
   double speed() const { return settlement / (loading_time - 0.5 * ramp_time()); } ///< after the ramp [m/s]
   double settlement_at(const double time) const                                    ///< [s] to [m]

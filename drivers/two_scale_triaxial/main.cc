@@ -5,7 +5,6 @@
 #include "drivers/two_scale_triaxial/specimen.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace
 {
@@ -23,6 +22,7 @@ public:
   {
     if (run.keep([this](StateVisitor &v) { visit(v); }))
       return;
+    require_stable_continuum(p);
     if (p.has_grains())
       packing.emplace(begin_packing(p));
     start.box = {Vec3::Zero(), Vec3::Constant(p.edge)};
@@ -92,7 +92,7 @@ bool TriaxialRun::load()
   History history = run.history(table);
   const dem::StrainProgram &program = parameters.program;
   const double dt = parameters.simulation.time_step;
-  const auto n_steps = static_cast<std::int64_t>(std::ceil(program.end_time() / dt - 1e-9));
+  const std::int64_t n_steps = parameters.loading_steps();
   const auto sample = [&]
   {
     now = specimen->measure(time());

@@ -6,6 +6,7 @@
 #include "drivers/common/coupling_parameters.h"
 #include "drivers/common/grain_parameters.h"
 #include "drivers/common/loading_parameters.h"
+#include "drivers/common/run/step_count.h"
 
 #include <cmath>
 #include <utility>
@@ -67,6 +68,7 @@ void TriaxialParameters::validate() const
   packing_simulation().validate();
   compression.validate();
   program.validate();
+  loading_steps();
   if (kind == ModelKind::two_scale)
   {
     if (continuum_layers >= elements_per_edge)
@@ -96,6 +98,12 @@ void TriaxialParameters::validate() const
     if (step > limit)
       reject(name, " is ", step, " s: it must stay below ", limit,
              " s, the stable step of two of the smallest grains in contact");
+}
+
+std::int64_t TriaxialParameters::loading_steps() const
+{
+  return steps_over({"Loading/isotropic time + shear time", program.end_time()},
+                    {"Loading/time step", simulation.time_step});
 }
 
 dem::SimulationParameters TriaxialParameters::loading_simulation() const

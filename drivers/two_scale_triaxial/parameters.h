@@ -61,6 +61,8 @@ struct TriaxialParameters
   dem::SimulationParameters packing_simulation() const;
   dem::SimulationParameters loading_simulation() const; ///< walls damp as the grains do
 
+  std::int64_t loading_steps() const; ///< throws ConfigError where they are too many to count
+
   const char *model_name() const ///< as the parameter file has it
   {
     return kind == ModelKind::grains ? "grains" : kind == ModelKind::continuum ? "continuum" : "two-scale";

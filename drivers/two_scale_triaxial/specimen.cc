@@ -7,6 +7,8 @@
 #include "fe_dealii/stable_step.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace bergamo::driver
 {
@@ -36,6 +38,14 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
   return std::make_unique<fe::ExplicitBody>(fe::make_box_body(mesh, body));
 }
 
+void require_stable(const fe::ExplicitBody &body, const double step, const std::string &state)
+{
+  const double limit = fe::stable_step(body).time_step;
+  if (step > limit)
+    reject("Loading/time step is ", step, " s: it must stay below ", limit, " s, the stable step of the continuum",
+           state);
+}
+
 /// The grains' box, extended downwards by the layers that are continuum alone.
 dem::Box whole_cube(const TriaxialParameters &parameters, dem::Box box)
 {
@@ -46,6 +56,17 @@ dem::Box whole_cube(const TriaxialParameters &parameters, dem::Box box)
 }
 
 } // namespace
+
+void require_stable_continuum(const TriaxialParameters &parameters)
+{
+  if (!parameters.has_continuum())
+    return;
+  constexpr double densest = 0.74; // solid fraction; the cube shrinks until the grains bear the pressure
+  const double shrinkage = parameters.has_grains() ? std::min(1., parameters.expected_solid_fraction / densest) : 1.;
+  const dem::Box least{Vec3::Zero(), Vec3::Constant(parameters.edge * std::cbrt(shrinkage))};
+  require_stable(*make_body(parameters, least), parameters.simulation.time_step,
+                 parameters.has_grains() ? " if the grains pack as densely as they can" : "");
+}
 
 Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start)
     : model(std::move(grains), make_body(p, whole_cube(p, start.box)), p.simulation.time_step), parameters(p),
@@ -66,9 +87,8 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
       if (face != 4 || !is_joined)
         faces[face].wall = wall++;
   }
-  const double limit = model.body() ? fe::stable_step(*model.body()).time_step : step;
-  if (step > limit)
-    reject("Loading/time step is ", step, " s: it must stay below ", limit, " s, the stable step of the continuum");
+  if (model.body())
+    require_stable(*model.body(), step, " on the packed cube");
 }
 
 void Specimen::join(const std::vector<Vec3> &reference_by_id, const double layer)

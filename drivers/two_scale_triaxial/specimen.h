@@ -12,6 +12,10 @@
 namespace bergamo::driver
 {
 
+/// Throws ConfigError where the time step is above the stable one of the continuum, on the smallest cube that a packing
+/// may end in: told before the grains are packed.
+void require_stable_continuum(const TriaxialParameters &parameters);
+
 /// The cube under test: grains above, continuum below, joined in the overlap; or one of them alone. Its outer faces
 /// move with prescribed strains: lower faces stand still, upper ones move.
 class Specimen

@@ -270,6 +270,35 @@ class BadInput(Case):
         self.assertIn("warning: sample 0002: the mean lateral pressure during the shear is 80000 Pa", result.stderr)
         self.assertNotIn("sample 0001", result.stderr)
 
+    def test_output_over_its_own_ensemble(self):
+        """Refused with every option, by any name of the folder; the ensemble stays as it was. Beside its samples there is
+        room for a fit."""
+        def content():
+            return {path: path.read_bytes() for path in self.tmp.rglob("*") if path.is_file()}
+
+        moved = self.tmp / "run" / "previous_run"
+        for ensemble, output in ((self.tmp / "run", "run"), (self.tmp / "run", "link/../run/."), (self.tmp / "run", "link"),
+                                 (self.tmp / "run", "run/samples/0001"), (moved, "run"), (moved, "link")):
+            with self.subTest(ensemble=ensemble, output=output):
+                shutil.rmtree(self.tmp / "run", True)
+                (self.tmp / "link").unlink(True)
+                (self.tmp / "link").symlink_to(self.tmp / "run", True)
+                self.ensemble = ensemble
+                self.write([(p, curve(p, 60e6, 23, 5)) for p in PRESSURES])
+                for name in ("parameters.prm", "snapshot.h5", "summary.json"):
+                    (ensemble / name).write_text("precious")
+                before = content()
+                for options in (("--force", "--no-plots"), ("--no-plots",)):
+                    self.out = Path(f"{self.tmp}/{output}")
+                    result = self.fit(options=options)
+                    self.assertEqual(result.returncode, 2, result.stderr)
+                    for word in ("would take over the ensemble", "Ensemble/folder", "--output"):
+                        self.assertIn(word, result.stderr)
+                self.assertEqual(content(), before)
+        self.ensemble = moved
+        self.out = moved / "fit"
+        self.fitted()
+
     def test_parameters(self):
         self.write([(50e3, curve(50e3, 60e6, 23, 5))])
         mistakes = {

@@ -181,6 +181,35 @@ class Restart(Case):
         self.assertIn("sample 1", result.stderr)
         self.assertIn("snapshot.h5", result.stderr)
         self.assertEqual([row["finished"] for row in numbers(out / "ensemble.csv")], [0, 1])
+        # What the message says helps.
+        self.assertIn("or remove it, and --restart begins the sample anew", result.stderr)
+        snapshot.unlink()
+        result = self.run_driver(out, *options, "--restart")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        whole = self.tmp / "whole"
+        self.assertEqual(self.run_driver(whole).returncode, 0)
+        self.assert_same_results(whole, out)
+
+    def test_failed_sample(self):
+        """Under the lower pressure a stage takes too long. The options that the message gives run that sample alone, with
+        another limit and what it would have given in its ensemble."""
+        whole, out, alone = self.tmp / "whole", self.tmp / "out", self.tmp / "alone"
+        self.assertEqual(self.run_driver(whole).returncode, 0)
+        last = [table(whole / "samples" / sample / "history.csv") for sample in ("0001", "0002")]
+        shear = [float(rows[-1]["time_s"]) - next(float(row["time_s"]) for row in rows if row["stage"] == "2")
+                 for rows in last]
+        self.assertGreater(shear[0], 1.5 * shear[1])  # slower at the same inertial number: the first sample fails
+        limit = f"Stage 2/longest time={(shear[0] + shear[1]) / 2}"
+        result = self.run_driver(out, "--set", limit)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("sample 1: the stage did not end within", result.stderr)
+        self.assertEqual([row["finished"] for row in numbers(out / "ensemble.csv")], [0, 1])
+        line = next(line for line in result.stderr.splitlines() if line.startswith("  sample 1: --set"))
+        result = self.run_driver(alone, *shlex.split(line.split(": ", 1)[1]))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in ("history.csv", "distributions.csv"):
+            self.assertEqual((whole / "samples" / "0001" / name).read_text(),
+                             (alone / "samples" / "0001" / name).read_text())
 
     def test_full_disk(self):
         """A file system too small for a snapshot: one message, the table of samples stays whole."""

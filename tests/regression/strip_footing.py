@@ -7,11 +7,13 @@ Usage: strip_footing.py PROGRAM [TOPIC]
 
 import csv
 import json
+import shlex
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -104,6 +106,40 @@ class Restart(Case):
             self.assertEqual(summaries[0][name], summaries[1][name])
 
 
+class StaticStart(Case):
+    def test_interrupt(self):
+        """The first Ctrl-C ends it: nothing is written yet that one could go on from."""
+        out = self.tmp / "run"
+        settings = ["Ground/gravity=9.81", "Ground/elements under half the footing=100"]  # a start of many seconds
+        process = subprocess.Popen(self.command(out, settings), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+        def catches_interrupts():
+            status = Path(f"/proc/{process.pid}/status").read_text()
+            return int(status.split("SigCgt:")[1].split()[0], 16) >> (signal.SIGINT - 1) & 1
+
+        while process.poll() is None and not catches_interrupts():
+            time.sleep(0.001)
+        process.send_signal(signal.SIGINT)
+        _, stderr = process.communicate()
+        self.assertEqual(process.returncode, -signal.SIGINT, stderr)
+        self.assertIn("stopped", stderr)
+        self.assertFalse(out.exists())
+
+
+class Mpi(Case):
+    def test_where_it_cannot_start(self):
+        """One message with the remedy instead of MPI's own pages."""
+        for limit, words in {"export TMPDIR=/proc/none": ("TMPDIR", "/proc/none"), "ulimit -n 20": ("20 files", "ulimit -n 64")}.items():
+            with self.subTest(limit):
+                result = subprocess.run(["bash", "-c", f"{limit}; exec {shlex.join(self.command(self.tmp / 'run'))}"],
+                                        capture_output=True, text=True)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                for word in words:
+                    self.assertIn(word, result.stderr)
+                self.assertFalse((self.tmp / "run").exists())
+
+
 class BadInput(Case):
     def assert_refused(self, settings, *words, status=2):
         out = self.tmp / "refused"
@@ -118,8 +154,18 @@ class BadInput(Case):
         self.assert_refused(["Ground/width=0.8"], "Ground/width is 0.8", "Footing/width")
         self.assert_refused(["Footing/settlement=0.5"], "Footing/settlement is 0.5")
         self.assert_refused(["Continuum/cohesion=0"], "cohesion", "no strength")
+        self.assert_refused(["Continuum/cohesion=0", "Continuum/friction angle=30"], "bears no footing",
+                            "Continuum/cohesion", "Ground/surcharge", "Ground/gravity")
         self.assert_refused(["Output/step share=1.5"], "step share", "1.5")
         self.assert_refused(["Ground/element degree=3"], "element degree", "3")
+
+    def test_numbers_that_overflow(self):
+        """What would take more steps or elements than there are numbers is refused by the parameter's name."""
+        self.assert_refused(["Footing/loading time=1e30"], "Footing/loading time is 1e+30 s", "steps")
+        for setting in ("Ground/width=1e30", "Ground/depth=1e10", "Footing/width=1e-9"):
+            with self.subTest(setting):
+                self.assert_refused([setting, "Footing/settlement=1e-10"], "Ground/width", "Ground/depth",
+                                    "more than can be numbered")
 
     def test_ground_that_cannot_rest(self):
         """K0 far from what the ground bears: refused with the place, before a file is written."""

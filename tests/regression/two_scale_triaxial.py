@@ -84,6 +84,14 @@ class Results(Case):
                     self.assertTrue((out / "continuum_0001.vtu").exists())
                 final[kind] = rows[-1]
 
+    def test_needs_no_mpi(self):
+        """Where MPI could not start, the driver does: with coupled models it has no use for it."""
+        command = shlex.join(self.command(self.tmp / "run", "--set", "Loading/isotropic time=1e-5", "--set",
+                                          "Loading/shear time=1e-5"))
+        result = subprocess.run(["bash", "-c", f"export TMPDIR=/proc/none; ulimit -n 20; exec {command}"],
+                                capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
     def test_continuum_closed_form(self):
         """A homogeneous elastic start: p = p0 - K eps_v while no yielding (Hooke)."""
         out = self.tmp / "run"
@@ -176,6 +184,9 @@ class BadInput(Case):
             "Continuum/dilation angle=40": ("dilation", "40"),
             "Coupling/penalty=-1": ("penalty", "-1"),
             "Loading/axial strain=nan": ("axial strain", "nan"),
+            "Loading/isotropic time=1e30": ("Loading/isotropic time", "1e+30", "steps"),
+            "Loading/time step=1e-300": ("Loading/time step", "1e-300", "steps"),
+            "Model/edge=1000": ("number of grains", "2^31"),
         }
         for setting, words in mistakes.items():
             with self.subTest(setting):
@@ -183,8 +194,13 @@ class BadInput(Case):
                 self.assertFalse(out.exists())
 
     def test_continuum_time_step(self):
-        result = self.run_driver(self.tmp / "run", "--set", "Model/kind=continuum", "--set", "Loading/time step=1e-4")
-        self.assert_refused(result, "time step", "0.0001", "stable")
+        """Refused at once: before the grains are packed, and before anything is written."""
+        for kind in ("continuum", "two-scale"):
+            with self.subTest(kind):
+                result = self.run_driver(self.tmp / "run", "--set", f"Model/kind={kind}", "--set",
+                                         "Loading/time step=5e-7", "--set", "Continuum/Young's modulus=1e11")
+                self.assert_refused(result, "Loading/time step is 5e-07 s", "stable step of the continuum")
+                self.assertFalse((self.tmp / "run").exists())
 
     def test_files(self):
         out = self.tmp / "run"

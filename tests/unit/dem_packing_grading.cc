@@ -1,4 +1,5 @@
 #include "dem/core/error.h"
+#include "dem/packing/draw_until.h"
 #include "dem/packing/grading.h"
 
 #include <catch2/catch.hpp>
@@ -34,6 +35,19 @@ TEST_CASE("uniform sizes of random shapes")
   CHECK(longest > 1.8);
   CHECK(most_angular <= 0.5);
   CHECK(most_angular > 0.499);
+}
+
+TEST_CASE("more grains than can be numbered are refused before they fill the memory")
+{
+  std::size_t n_drawn = 0;
+  const auto draw = [&]
+  {
+    ++n_drawn;
+    return Superquadric{Vec3::Constant(1e-4), 1., 1.};
+  };
+  CHECK_THROWS_AS(draw_until(1., draw), ConfigError); // 2.4e11 of them
+  CHECK(n_drawn <= 1000);
+  CHECK(draw_until(4.18879e-9, draw).size() == 1000);
 }
 
 TEST_CASE("the mass of many grains follows their sieve curve")

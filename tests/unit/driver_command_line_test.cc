@@ -44,6 +44,7 @@ TEST_CASE("a command line is read, and its defaults filled in")
   CHECK(full->parameter_files == Files{file});
   CHECK(full->threads == 1);
   CHECK(full->output == "out");
+  CHECK(parse({file, "--output", "./-out"})->output == "./-out");
   CHECK(full->force);
   CHECK(full->quiet);
   CHECK_FALSE(full->plots);
@@ -104,6 +105,11 @@ TEST_CASE("mistakes on the command line are explained")
       {{file, "--threads", "two"}, "--threads"},
       {{file, "--set", "Grains/friction"}, "has no '='"},
       {{file, "--set"}, "--set"},
+      {{file, "--set", "--quiet"}, "has no '='"},
+      {{file, "--threads", "--quiet"}, "--threads"},
+      {{file, "--output"}, "--output"},
+      {{file, "--output", "--no-plots"}, "--output --no-plots names no folder"},
+      {{file, "--output=-q", "--force"}, "--output -q names no folder"},
       {{file, "--force", "--restart"}, "contradict"},
   };
   for (const auto &[words, message] : wrong)

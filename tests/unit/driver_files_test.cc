@@ -156,10 +156,35 @@ TEST_CASE("a run folder that cannot be made is refused before the run")
 TEST_CASE("two runs cannot write to one folder at a time")
 {
   TemporaryFolder parent;
+  const FolderMode mode = GENERATE(FolderMode::fresh, FolderMode::force, FolderMode::restart);
+  RunFolder early(parent / "run", FolderMode::fresh); // before the folder is there
   RunFolder first(parent / "run", FolderMode::fresh);
   first.open();
-  RunFolder second(parent / "run", FolderMode::fresh);
-  CHECK_THROWS_WITH(second.open(), Contains("another run is writing"));
+  put(parent / "run/snapshot.h5", "state");
+  CHECK_THROWS_WITH(early.open(), Contains("another run is writing"));
+  CHECK_THROWS_WITH(RunFolder(parent / "run", mode), Contains("another run is writing"));
+  CHECK(content_of(parent / "run/snapshot.h5") == "state");
+}
+
+TEST_CASE("of two runs begun at once in a fresh folder, the slower one leaves what the other has written")
+{
+  TemporaryFolder parent;
+  RunFolder slow(parent / "run", FolderMode::fresh);
+  {
+    RunFolder fast(parent / "run", FolderMode::fresh);
+    fast.open();
+    put(fast.history(), "finished");
+  }
+  CHECK_THROWS_WITH(slow.open(), Contains("is not empty") && Contains("--output"));
+  CHECK(content_of(parent / "run/history.csv") == "finished");
+}
+
+TEST_CASE("a run keeps others out from the moment it has looked at a folder that is there")
+{
+  TemporaryFolder parent;
+  put(parent / "run/snapshot.h5", "state");
+  const RunFolder goes_on(parent / "run", FolderMode::restart); // it reads the snapshot before it opens the folder
+  CHECK_THROWS_WITH(RunFolder(parent / "run", FolderMode::force), Contains("another run is writing"));
 }
 
 TEST_CASE("a history has a header and exact rows")

@@ -3,8 +3,12 @@
 
 #include <catch2/catch.hpp>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -145,6 +149,7 @@ private:
 TEST_CASE("each signal that stops a run raises the flag that its loop reads")
 {
   const SavedHandlers saved;
+  const InterruptWatch watch;
   install_interrupt_handler();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
   {
@@ -156,9 +161,35 @@ TEST_CASE("each signal that stops a run raises the flag that its loop reads")
   }
 }
 
+TEST_CASE("where nobody watches for it, the first signal ends the program")
+{
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
+  const bool is_watched = GENERATE(true, false);
+  const pid_t child = ::fork();
+  if (child == 0)
+  {
+    ::close(STDERR_FILENO);
+    std::signal(SIGHUP, SIG_DFL);
+    install_interrupt_handler();
+    std::optional<InterruptWatch> watch;
+    watch.emplace();
+    if (!is_watched)
+      watch.reset();
+    std::raise(signal);
+    ::_exit(interrupted() ? 3 : 4);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  if (is_watched)
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 3));
+  else
+    CHECK((WIFSIGNALED(status) && WTERMSIG(status) == signal));
+}
+
 TEST_CASE("a hangup that follows another signal does not end the program before its snapshot")
 {
   const SavedHandlers saved;
+  const InterruptWatch watch;
   install_interrupt_handler();
   std::raise(SIGTERM);
   std::raise(SIGHUP); // the default would end this test program
@@ -169,6 +200,7 @@ TEST_CASE("a run under nohup outlives its terminal")
 {
   const SavedHandlers saved;
   std::signal(SIGHUP, SIG_IGN);
+  const InterruptWatch watch;
   install_interrupt_handler();
   std::raise(SIGHUP);
   CHECK_FALSE(interrupted());

@@ -20,6 +20,7 @@ struct Signals
 {
   Signals() { install_interrupt_handler(); }
   ~Signals() { clear_interrupt(); }
+  InterruptWatch watch;
 };
 
 /// A mass on a spring in two stages of six and eight steps, the second one stiffer: a run as drivers have it.

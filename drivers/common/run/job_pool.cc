@@ -41,6 +41,10 @@ void run_guarded(Job &job)
   {
     job.failure = error.what();
   }
+  catch (...) // of a library; it must not end the other jobs
+  {
+    job.failure = "an exception of unknown kind";
+  }
 }
 
 } // namespace
@@ -86,15 +90,6 @@ double particle_steps_here(const Jobs &jobs)
   for (const auto &job : jobs)
     sum += static_cast<double>(job->steps_here * job->particles);
   return sum;
-}
-
-std::string failures_of(const Jobs &jobs, const std::string &name)
-{
-  std::string failures;
-  for (std::size_t k = 0; k < jobs.size(); ++k)
-    if (!jobs[k]->failure.empty())
-      failures += "\n  " + name + " " + std::to_string(k + 1) + ": " + jobs[k]->failure;
-  return failures;
 }
 
 } // namespace bergamo::driver

@@ -35,7 +35,4 @@ void run_jobs(const std::vector<std::shared_ptr<Job>> &jobs, const std::string &
 /// Steps times particles done by this process over all jobs.
 double particle_steps_here(const std::vector<std::shared_ptr<Job>> &jobs);
 
-/// "\n  NAME 2: …" for every job that failed, the first one number 1.
-std::string failures_of(const std::vector<std::shared_ptr<Job>> &jobs, const std::string &name);
-
 } // namespace bergamo::driver

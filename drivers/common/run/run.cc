@@ -40,6 +40,7 @@ bool Run::keep(Visit state)
 
 void Run::open()
 {
+  watch_.emplace();
   folder_.open();
   if (!command_line_.restart)
     write_whole_file(folder_.parameters(), parameters_);

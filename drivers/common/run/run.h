@@ -2,6 +2,7 @@
 
 #include "drivers/common/command_line.h"
 #include "drivers/common/history.h"
+#include "drivers/common/interrupt.h"
 #include "drivers/common/plots.h"
 #include "drivers/common/progress.h"
 #include "drivers/common/run/run_loop.h"
@@ -11,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,6 +89,7 @@ private:
   Visit state_;
   Progress progress_;
   RunLoop loop_;
+  std::optional<InterruptWatch> watch_; ///< from open() on: before, there is nothing to save
 };
 
 } // namespace bergamo::driver
