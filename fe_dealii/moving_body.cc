@@ -58,22 +58,21 @@ void MovingBody::gather_mass()
 {
   progress_.has_forces = 0; // elements of other masses have other forces
   scale_mass();
-  const auto gather = [&](std::vector<double> &total, const auto &factor)
+  mass_.assign(3 * n_nodes(), 0.);
+  gravitational_mass_.assign(n_nodes(), 0.);
+  std::vector<double> inertia(elements_->nodes_per_element()), gravitational(inertia.size());
+  for (std::size_t e = 0; e < n_elements(); ++e)
   {
-    total.assign(mass_.size(), 0.);
-    std::vector<double> mass(elements_->nodes_per_element());
-    for (std::size_t e = 0; e < n_elements(); ++e)
+    elements_->lumped_mass(e, inertia.data());
+    elements_->gravitational_mass(e, gravitational.data());
+    for (std::size_t v = 0; v < inertia.size(); ++v)
     {
-      elements_->lumped_mass(e, mass.data());
-      for (std::size_t v = 0; v < mass.size(); ++v)
-        for (int i = 0; i < 3; ++i)
-          total[3 * std::size_t(element_nodes(e)[v]) + i] += factor(e) * mass[v];
+      const std::size_t node = element_nodes(e)[v];
+      for (std::size_t i = 0; i < 3; ++i)
+        mass_[3 * node + i] += mass_factor(e) * inertia[v];
+      gravitational_mass_[node] += gravitational[v];
     }
-  };
-  gather(mass_, [&](const std::size_t e) { return mass_factor(e); });
-  if (mass_factor_.empty())
-    return;
-  gather(true_mass_, [](std::size_t) { return 1.; });
+  }
 }
 
 void MovingBody::scale_mass()
@@ -241,14 +240,13 @@ MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t 
   // are alike.
   const double to_before = (kick.before - kick.time) / kick.time, to_after = (kick.time - kick.after) / kick.time;
   const bool changes = kick.before != kick.after;
-  const std::vector<double> &heavy_mass = this->heavy_mass();
   KickSums sums;
   for (std::size_t node = begin; node < end; ++node)
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::size_t dof = 3 * node + i;
       const double mass = mass_[dof], old = velocity_[dof];
-      const double external = external_force_[dof], weight = heavy_mass[dof] * forces_.gravity[i];
+      const double external = external_force_[dof], weight = gravitational_mass_[node] * forces_.gravity[i];
       const double force = external + weight - internal_force_[dof];
       const int constraint = constraint_of_dof_[dof];
       double fresh, damping, reaction = 0;

@@ -117,8 +117,8 @@ public:
   std::span<const double> internal_force() const { return internal_force_; } ///< [N]
   std::span<const double> reaction_force() const { return reaction_force_; } ///< [N], zero at free dofs
   std::span<const double> mass() const { return mass_; } ///< inertia, lumped, share and scaling included [kg]
-  /// Force of gravity on a dof, of the true mass whatever its scaling [N].
-  double weight(const std::size_t dof) const { return heavy_mass()[dof] * forces_.gravity[dof % 3]; }
+  /// Force of gravity on a dof, ∫ N ρ g dV of the true mass whatever its scaling and lumping [N].
+  double weight(const std::size_t dof) const { return gravitational_mass_[dof / 3] * forces_.gravity[dof % 3]; }
   /// @}
 
   /// @name Nodes and elements
@@ -169,7 +169,6 @@ protected:
 
 private:
   void scale_mass();
-  const std::vector<double> &heavy_mass() const { return mass_factor_.empty() ? mass_ : true_mass_; }
   [[noreturn]] void report_inversion(std::size_t element) const;
 
   std::string name_;
@@ -180,10 +179,10 @@ private:
   Rows<unsigned int> slots_; // places of each node in elements_->nodes(), ascending
 
   std::vector<double> displacement_, velocity_, internal_force_, external_force_, reaction_force_, mass_;
+  std::vector<double> gravitational_mass_;     // of the nodes, see ElementGroup
   std::vector<double> displacement_of_stress_; // where the stresses were computed last
 
   std::vector<double> mass_factor_; // of the elements; none where nothing is scaled
-  std::vector<double> true_mass_;   // without the factors; none where nothing is scaled
   MassScaling mass_scaling_;
 
   std::vector<int> constraint_of_dof_; // −1: free

@@ -54,6 +54,11 @@ public:
   /// Lumped mass at the nodes of an element, all positive [kg].
   virtual void lumped_mass(std::size_t element, double *mass) const = 0;
 
+  /// What a body force acts on at the nodes of an element, ∫ N ρ dV with the share [kg]: work-conjugate to the
+  /// displacements on any mesh. The row sum of the consistent mass, which may be negative at nodes of a distorted
+  /// quadratic element; where the lumped mass is that sum, the same.
+  virtual void gravitational_mass(const std::size_t element, double *mass) const { lumped_mass(element, mass); }
+
   /// Elastic stiffness at a displacement, row-major [N/m]; of the stiffest point where it depends on the pressure. At
   /// large strain the tangent, with the part of the present stresses.
   virtual void stiffness(std::size_t element, const double *displacement, double *matrix) const = 0;

@@ -14,9 +14,9 @@ class SmallStrainElements : public ElementGroup
 {
 public:
   ElementState state_of(std::size_t element, const double *displacement) const final;
-  double elastic_energy() const final;
+  double elastic_energy() const override;
   double dissipated_energy() const final;
-  std::vector<std::pair<std::string, std::span<double>>> state() final;
+  std::vector<std::pair<std::string, std::span<double>>> state() override;
   double volume(std::size_t element) const final;
 
   const Law &law() const { return law_; }

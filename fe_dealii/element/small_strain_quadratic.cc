@@ -64,10 +64,10 @@ void add_stiffness(const Geometry &geometry, const int pack, const StressOf &str
 
 template <class Law>
 SmallStrainQuadratic<Law>::SmallStrainQuadratic(const Law &law, std::vector<unsigned int> nodes,
-                                                std::vector<Geometry> geometry, std::vector<double> mass_share,
+                                                std::vector<Geometry> geometry, MassShares mass_shares,
                                                 std::vector<PointHistory> start)
     : SmallStrainElements<Law>(law, n_nodes, std::move(nodes), std::move(start)), geometry_(std::move(geometry)),
-      mass_share_(std::move(mass_share))
+      mass_shares_(std::move(mass_shares))
 {
 }
 
@@ -98,7 +98,15 @@ void SmallStrainQuadratic<Law>::lumped_mass(const std::size_t element, double *m
 {
   const double whole = this->law().density() * geometry_[element].whole_volume();
   for (int node = 0; node < n_nodes; ++node)
-    mass[node] = whole * mass_share_[n_nodes * element + node];
+    mass[node] = whole * mass_shares_.lumped[n_nodes * element + node];
+}
+
+template <class Law>
+void SmallStrainQuadratic<Law>::gravitational_mass(const std::size_t element, double *mass) const
+{
+  const double whole = this->law().density() * geometry_[element].whole_volume();
+  for (int node = 0; node < n_nodes; ++node)
+    mass[node] = whole * mass_shares_.row_sum[n_nodes * element + node];
 }
 
 template <class Law>
