@@ -124,7 +124,7 @@ void MovingBody::compute_internal_force()
   const double *const now = displacement_.data();
   double *const before = displacement_of_stress_.data();
   const std::span<const double> element_force = elements_->forces();
-  Collected<std::size_t> inverted;
+  Collected<std::size_t> inverted, endless; // elements, nodes
   parallel_ranges(n_blocks, few_elements / 2 / block_elements,
                   [&](const std::size_t part, const std::size_t first, const std::size_t last)
                   {
@@ -138,7 +138,7 @@ void MovingBody::compute_internal_force()
                   });
   // Each node sums its elements in their order: no race, and the same bits whatever the threads.
   parallel_ranges(n_nodes(), few_nodes,
-                  [&](std::size_t, const std::size_t begin, const std::size_t end)
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t node = begin; node < end; ++node)
                     {
@@ -151,30 +151,15 @@ void MovingBody::compute_internal_force()
                         internal_force_[3 * node + i] = force[i];
                         before[3 * node + i] = now[3 * node + i];
                       }
+                      if (!std::isfinite(force[0] + force[1] + force[2]))
+                        endless.of(part).push_back(node);
                     }
                   });
   if (const std::vector<std::size_t> all = inverted.all(); !all.empty())
     report_inversion(all.front());
+  if (!endless.all().empty())
+    report_endless_forces();
   progress_.has_forces = 1;
-}
-
-std::array<double, 3> MovingBody::present_centre(const std::size_t element) const
-{
-  std::array<double, 3> centre{};
-  const std::span<const unsigned int> nodes = element_nodes(element);
-  for (const unsigned int node : nodes)
-    for (int i = 0; i < 3; ++i)
-      centre[i] += (node_position_[node][i] + displacement_[3 * std::size_t(node) + i]) / nodes.size();
-  return centre;
-}
-
-void MovingBody::report_inversion(const std::size_t element) const
-{
-  const std::array<double, 3> centre = present_centre(element);
-  std::ostringstream message;
-  message << name_ << ": element " << element << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
-          << ") m has collapsed or turned inside out; choose a smaller time step, a finer mesh there or a smaller load";
-  throw RunError(message.str());
 }
 
 /// A kick between two steps.
@@ -221,6 +206,8 @@ void MovingBody::kick(const double dt)
     total.before.add(block.before);
     total.after.add(block.after);
   }
+  if (!std::isfinite(total.kinetic + total.after.external))
+    report_endless_motion();
   ledger_.here = ledger_.ahead;
   ledger_.here.add(total.before);
   ledger_.ahead = ledger_.here;
@@ -312,6 +299,7 @@ void MovingBody::drift(const double dt)
                   });
   progress_.is_kicked = 0;
   ++progress_.n_steps;
+  progress_.time += dt;
 }
 
 MovingBody::Constraint MovingBody::prescribe_velocity(const unsigned int boundary_id, const unsigned int component,

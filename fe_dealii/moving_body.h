@@ -53,14 +53,15 @@ public:
   /// @{
 
   /// Internal forces [N] and stresses of the present displacement; the strain increment is that since the last call,
-  /// and none is made where nothing has moved since. Throws RunError, with its place, where an element has turned
-  /// inside out.
+  /// and none is made where nothing has moved since. Throws RunError, with its place and the time, where an element has
+  /// turned inside out or has forces that are not finite.
   void compute_internal_force();
 
   /// v⁺ from v⁻ and the forces: m (v⁺ − v⁻)/h = f_ext + weight − f_int − α m (v⁻ + v⁺)/2 with h = kick_time(dt). The
   /// damping is centred: it adds no limit to the time step. Prescribed dofs take their velocity and get a reaction.
   /// @param dt of the step to come [s]; ConfigError unless it is positive and finite
-  /// Throws RunError for a second kick without a drift in between: it would accelerate the body twice.
+  /// Throws RunError for a second kick without a drift in between, which would accelerate the body twice, and, with
+  /// place and time, where a load or a motion is not finite.
   void kick(double dt);
 
   /// u += dt v⁺. Throws RunError unless a kick with the same dt came before.
@@ -72,6 +73,8 @@ public:
 
   /// Number of drifts so far.
   std::int64_t n_steps() const { return static_cast<std::int64_t>(progress_.n_steps); }
+
+  double time() const { return progress_.time; } ///< sum of the drifts so far [s]
 
   /// Takes the present displacement and stresses for a state of rest: no velocity, reactions that hold the prescribed
   /// dofs, accounts that start anew. Call after compute_internal_force().
@@ -140,6 +143,9 @@ public:
   }
   Stress average_stress() const;                                   ///< volume average over the body, whatever the share
   std::array<double, 3> present_centre(std::size_t element) const; ///< mean of its nodes' places [m]
+  std::array<double, 3> reference_centre(std::size_t element) const; ///< the same where the body started [m]
+  /// "NAME: element E at (x, y, z) m has, at time t s,": what the message of a failing run begins with.
+  std::string describe(std::size_t element) const;
   /// Factor of an element's inertia; 1 where it is not scaled.
   double mass_factor(const std::size_t element) const { return mass_factor_.empty() ? 1 : mass_factor_[element]; }
   const MassScaling &mass_scaling() const { return mass_scaling_; }
@@ -170,6 +176,8 @@ protected:
 private:
   void scale_mass();
   [[noreturn]] void report_inversion(std::size_t element) const;
+  [[noreturn]] void report_endless_forces() const;
+  [[noreturn]] void report_endless_motion() const;
 
   std::string name_;
   MassForces forces_;
@@ -210,6 +218,7 @@ private:
     double has_forces = 0; // 1: those of displacement_of_stress_ are known
     double is_kicked = 0;  // 1 from a kick to its drift
     double n_steps = 0;    // drifts so far
+    double time = 0;       // their sum [s]
   };
   Progress progress_;
 

@@ -1,6 +1,7 @@
 #include "fe_dealii/element/small_strain_elements.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace bergamo::fe
@@ -110,15 +111,20 @@ double SmallStrainElements<Law>::dissipated_energy() const
 template <class Law>
 double SmallStrainElements<Law>::greatest_stiffness_factor(const std::size_t element) const
 {
-  double greatest = 1;
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
     if (law_.depends_on_pressure())
     {
-      greatest = 0;
-      for (int point = 0; point < points_per_pack * n_packs_; ++point)
-        greatest = std::max(greatest, law_.stiffness_factor(mean_stress(stress(element, point))));
+      double least_trace = HUGE_VAL, checked = 0;
+      for (int pack = 0; pack < n_packs_; ++pack)
+      {
+        const Points(&stress)[6] = history_[n_packs_ * element + pack].stress;
+        const Points trace = stress[0] + stress[1] + stress[2];
+        least_trace = std::min(least_trace, math::least(trace));
+        checked += sum(trace);
+      }
+      return std::isfinite(checked) ? law_.stiffness_factor(least_trace / 3) : checked;
     }
-  return greatest;
+  return 1;
 }
 
 template <class Law>

@@ -44,7 +44,7 @@ protected:
     return &sector_[points_per_pack * (n_packs_ * element + pack)];
   }
 
-  /// Largest factor of the moduli at any point.
+  /// Largest factor of the moduli at any point; not finite where a pressure is not.
   double greatest_stiffness_factor(std::size_t element) const;
 
 private:
