@@ -214,7 +214,8 @@ void MovingBody::kick(const double dt)
   ledger_.ahead.add(total.after);
   ledger_.kinetic = total.kinetic;
   if (ledger_.last_step == 0)
-    ledger_.initial = ledger_.kinetic + elements_->elastic_energy() + elements_->dissipated_energy();
+    ledger_.initial =
+        ledger_.kinetic + elements_->elastic_energy() + elements_->dissipated_energy() + elements_->stiffness_loss();
   ledger_.last_step = dt;
   progress_.is_kicked = 1;
 }
@@ -360,12 +361,14 @@ BodyEnergy MovingBody::energy() const
   energy.kinetic = ledger_.kinetic;
   energy.elastic = elements_->elastic_energy();
   energy.plastic_dissipation = elements_->dissipated_energy();
+  energy.stiffness_loss = elements_->stiffness_loss();
   energy.viscous_dissipation = ledger_.here.viscous;
   energy.boundary_work = ledger_.here.boundary;
   energy.gravity_work = ledger_.here.gravity;
   energy.external_work = ledger_.here.external;
   energy.step_change = ledger_.here.step_change;
-  energy.initial = ledger_.last_step > 0 ? ledger_.initial : energy.elastic + energy.plastic_dissipation;
+  energy.initial =
+      ledger_.last_step > 0 ? ledger_.initial : energy.elastic + energy.plastic_dissipation + energy.stiffness_loss;
   return energy;
 }
 

@@ -4,7 +4,6 @@
 #include "dem/measure/contact_list.h"
 #include "dem/measure/coordination.h"
 #include "drivers/common/run/visit_models.h"
-#include "fe_dealii/stable_step.h"
 
 #include <algorithm>
 
@@ -66,8 +65,10 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
       if (face != 4 || !is_joined)
         faces[face].wall = wall++;
   }
-  const double limit = model.body() ? fe::stable_step(*model.body()).time_step : step;
-  if (step > limit)
+  if (!model.body())
+    return;
+  body_steps.emplace(*model.body());
+  if (const double limit = body_steps->stable().time_step; step > limit)
     reject("Loading/time step is ", step, " s: it must stay below ", limit, " s, the stable step of the continuum");
 }
 
@@ -88,6 +89,8 @@ void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
 {
   strain = strain_now;
   model.compute_forces();
+  if (body_steps)
+    body_steps->require_stable(step);
   for (int d = 0; d < 3; ++d)
   {
     const double velocity = edges[d] * (strain_next[d] - strain_now[d]) / step;
@@ -105,9 +108,9 @@ SpecimenSample Specimen::measure(const double time) const
   const dem::Simulation *grains = model.grains();
   if (grains)
     grains->check_finite();
-  if (model.body() && !model.body()->is_finite())
-    throw RunError("the run diverged: the continuum is not finite at time " + std::to_string(time) +
-                   " s; choose a smaller Loading/time step");
+  if (model.body())
+    fe::require_bounded(model.body()->energy(), "the continuum at time " + std::to_string(time) + " s",
+                        "a smaller Loading/time step");
   SpecimenSample sample{.time = time,
                         .stage = parameters.program.stage(time),
                         .strain = strain,
@@ -164,6 +167,8 @@ void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, Loa
     specimen = std::make_unique<Specimen>(parameters, std::move(grains), start);
   if (specimen->model.body())
     visit_body(visit, *specimen->model.body());
+  if (specimen->body_steps)
+    visit_steps(visit, *specimen->body_steps);
 }
 
 } // namespace bergamo::driver

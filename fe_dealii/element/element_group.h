@@ -63,6 +63,12 @@ public:
   /// large strain the tangent, with the part of the present stresses.
   virtual void stiffness(std::size_t element, const double *displacement, double *matrix) const = 0;
 
+  /// Factor of the law's moduli that stiffness() takes in the present stresses; 1 where they do not depend on them. Not
+  /// finite where these are not.
+  virtual double stiffness_factor(std::size_t) const { return 1; }
+  /// Whether stiffness() depends on the displacement.
+  virtual bool stiffens_with_displacement() const { return false; }
+
   /// Derivative by the displacement of the forces that compute_forces(displacement, before) would give, row-major
   /// [N/m]. Not symmetric where the flow is not associated.
   virtual void tangent(std::size_t element, const double *displacement, const double *before, double *matrix) const = 0;
@@ -73,9 +79,10 @@ public:
 
   virtual double volume(std::size_t element) const = 0; ///< in the reference configuration, whatever the share [m³]
   virtual ElementState state_of(std::size_t element, const double *displacement) const = 0;
-  /// At the last compute_forces() [J]; where the stiffness depends on the pressure, the elastic work since the start.
-  virtual double elastic_energy() const = 0;
+  virtual double elastic_energy() const = 0;    ///< at the last compute_forces() [J]
   virtual double dissipated_energy() const = 0; ///< by plastic flow since the start [J]
+  /// Elastic work since the start less the energy that it has stored, where the stiffness depends on the pressure [J].
+  virtual double stiffness_loss() const { return 0; }
 
   /// What changes from step to step and a restart needs, as views.
   virtual std::vector<std::pair<std::string, std::span<double>>> state() = 0;

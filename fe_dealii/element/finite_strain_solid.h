@@ -30,6 +30,7 @@ public:
   void lumped_mass(std::size_t element, double *mass) const override;
   void gravitational_mass(std::size_t element, double *mass) const override;
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
+  bool stiffens_with_displacement() const override { return true; }
   void tangent(const std::size_t element, const double *displacement, const double *, double *matrix) const override
   {
     stiffness(element, displacement, matrix);

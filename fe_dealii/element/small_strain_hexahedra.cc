@@ -98,7 +98,7 @@ void SmallStrainHexahedra<Law>::stiffness(const std::size_t element, const doubl
       geometry_[element],
       [&](const Points(&unit_strain)[6], Points(&stress)[6]) { elastic_stress(this->law(), unit_strain, stress); },
       matrix);
-  const double factor = this->greatest_stiffness_factor(element);
+  const double factor = this->stiffness_factor(element);
   for (int entry = 0; entry < hexahedron::n_dofs * hexahedron::n_dofs; ++entry)
     matrix[entry] *= factor;
 }

@@ -112,7 +112,7 @@ void SmallStrainQuadratic<Law>::gravitational_mass(const std::size_t element, do
 template <class Law>
 void SmallStrainQuadratic<Law>::stiffness(const std::size_t element, const double *, double *matrix) const
 {
-  const double factor = this->greatest_stiffness_factor(element);
+  const double factor = this->stiffness_factor(element);
   std::fill(matrix, matrix + 9 * n_nodes * n_nodes, 0.);
   for (int pack = 0; pack < n_packs; ++pack)
     add_stiffness(
