@@ -104,6 +104,18 @@ class Results(Case):
         self.assertEqual(one["bearing_pressure_Pa"], two["bearing_pressure_Pa"])
 
 
+    def test_plots(self):
+        """Linear and quadratic elements can be drawn."""
+        for degree in (1, 2):
+            out = self.tmp / f"degree_{degree}"
+            command = self.command(out, [f"Ground/element degree={degree}", "Footing/loading time=0.05",
+                                         "Footing/settlement=1e-4"])
+            command.remove("--no-plots")
+            result = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertTrue((out / "plots" / "strip_footing.png").exists(), result.stderr)
+
+
 class Restart(Case):
     def test_kill(self):
         """Killed, and stopped by Ctrl-C: what it gives in the end is the same to the last bit, the step that follows the
