@@ -331,6 +331,20 @@ MovingBody::Constraint MovingBody::prescribe_velocity(const std::span<const unsi
   return constraint;
 }
 
+void MovingBody::make_rigid(const std::span<const unsigned int> nodes)
+{
+  std::vector<bool> is_among(n_nodes(), false);
+  for (const unsigned int node : nodes)
+    is_among[node] = true;
+  for (std::size_t e = 0; e < n_elements(); ++e)
+  {
+    const std::span<const unsigned int> own = element_nodes(e);
+    if (std::all_of(own.begin(), own.end(), [&](const unsigned int node) { return is_among[node]; }))
+      elements_->make_rigid(e);
+  }
+  progress_.has_forces = 0;
+}
+
 double MovingBody::reaction(const Constraint constraint) const
 {
   double sum = 0;

@@ -105,6 +105,9 @@ public:
     return constraint_of_dof_[dof] < 0 ? std::nullopt : std::optional(Constraint(constraint_of_dof_[dof]));
   }
 
+  /// Elements whose nodes are all among these move as one rigid body, see ElementGroup::is_rigid().
+  void make_rigid(std::span<const unsigned int> nodes);
+
   /// Resultant force that the boundary exerts on the body in the constrained component, at the last kick [N].
   double reaction(Constraint constraint) const;
   /// @}

@@ -1,6 +1,7 @@
 #include "drivers/common/driver_main.h"
 #include "drivers/common/run/energy_residual.h"
 #include "drivers/common/run/model_pictures.h"
+#include "drivers/common/run/rotation_watch.h"
 #include "drivers/common/run/run.h"
 #include "drivers/common/run/visit_models.h"
 #include "drivers/strip_footing/footing_model.h"
@@ -41,6 +42,7 @@ private:
   PictureSeries pictures;
   fe::BodyEnergy energy; // of the last sample
   EnergyResidual residual;
+  RotationWatch rotation;
   double bearing_impulse = 0, bearing_time = 0; // over the last part of the settlement [Pa s, s]
   const Table table{{{"time_s", [&] { return time(); }},
                      {"settlement_m", [&] { return parameters.settlement_at(time()); }},
@@ -59,6 +61,7 @@ private:
 void FootingRun::visit(StateVisitor &visit)
 {
   residual.visit(visit);
+  rotation.visit(visit);
   visit("bearing_impulse", bearing_impulse);
   visit("bearing_time", bearing_time);
   pictures.visit(visit);
@@ -102,6 +105,7 @@ void FootingRun::sample(History &history)
   fe::require_bounded(energy, "the ground at time " + std::to_string(time()) + " s", "a smaller Output/step share");
   residual.add(energy.residual(), energy.boundary_work);
   history.append(table.row());
+  rotation.look(model.body(), run.progress());
 }
 
 Summary FootingRun::summary() const
@@ -123,6 +127,7 @@ Summary FootingRun::summary() const
   summary.set("limit_pressure_Pa", limit, "Pa");
   summary.set("bearing_over_limit", bearing / limit);
   summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
+  summary.set("greatest_rotation_degrees", rotation.greatest(), "degrees");
   summary.set("stiffness_loss_over_footing_work", energy.stiffness_loss / energy.boundary_work);
   return summary;
 }

@@ -2,6 +2,7 @@
 
 #include "fe_dealii/material/tensor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -41,6 +42,16 @@ public:
     return {&node[element * n_element_nodes], std::size_t(n_element_nodes)};
   }
   std::span<const unsigned int> nodes() const { return node; }
+
+  /// Whether an element moves as a rigid body: it has no forces then, its stress and energy stay, and it sets no stable
+  /// step. Elements of small strain would resist a rotation.
+  bool is_rigid(const std::size_t element) const { return !rigid.empty() && rigid[element] != 0; }
+  void make_rigid(const std::size_t element)
+  {
+    rigid.resize(size(), 0);
+    rigid[element] = 1;
+    std::fill_n(force(element), dofs_per_element(), 0.);
+  }
 
   /// Nodal forces of the elements as last computed, in the order of nodes(), three each [N].
   std::span<const double> forces() const { return force_of_dof; }
@@ -111,6 +122,7 @@ private:
   int n_element_nodes;
   std::vector<unsigned int> node;
   std::vector<double> force_of_dof;
+  std::vector<char> rigid; // none where no element is
 };
 
 } // namespace bergamo::fe

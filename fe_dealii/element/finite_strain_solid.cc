@@ -20,6 +20,8 @@ std::optional<std::size_t> FiniteStrainSolid<Law, n_nodes>::compute_forces(const
 {
   for (std::size_t e = begin; e < end; ++e)
   {
+    if (is_rigid(e))
+      continue;
     double u[3 * n_nodes];
     gather(e, displacement, u);
     const finite_strain::Response response = finite_strain::internal_force(law_, geometry_[e], dilatation, u, force(e));

@@ -64,6 +64,8 @@ double largest_eigenvalue_bound(std::vector<double> &matrix, const std::size_t n
 
 double largest_eigenvalue(const ElementGroup &elements, const std::size_t element, const double *displacement)
 {
+  if (elements.is_rigid(element))
+    return 0;
   const std::size_t n = elements.dofs_per_element();
   std::vector<double> matrix(n * n), mass(elements.nodes_per_element());
   elements.stiffness(element, displacement, matrix.data());

@@ -42,6 +42,8 @@ std::optional<std::size_t> SmallStrainHexahedra<Law>::compute_forces(const std::
 {
   for (std::size_t e = begin; e < end; ++e)
   {
+    if (this->is_rigid(e))
+      continue;
     double increment[hexahedron::n_dofs];
     this->gather_increment(e, displacement, before, increment);
     Points strain[6];

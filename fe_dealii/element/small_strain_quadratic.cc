@@ -77,6 +77,8 @@ std::optional<std::size_t> SmallStrainQuadratic<Law>::compute_forces(const std::
 {
   for (std::size_t e = begin; e < end; ++e)
   {
+    if (this->is_rigid(e))
+      continue;
     double increment[3 * n_nodes];
     this->gather_increment(e, displacement, before, increment);
     double *const force = this->force(e);
