@@ -4,6 +4,7 @@
 #include "drivers/common/run/rotation_watch.h"
 #include "drivers/common/run/run.h"
 #include "drivers/common/run/visit_models.h"
+#include "drivers/strip_footing/bearing_mean.h"
 #include "drivers/strip_footing/footing_model.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ private:
   fe::BodyEnergy energy; // of the last sample
   EnergyResidual residual;
   RotationWatch rotation;
-  double bearing_impulse = 0, bearing_time = 0; // over the last part of the settlement [Pa s, s]
+  BearingMean bearing; // over the last part of the settlement
   const Table table{{{"time_s", [&] { return time(); }},
                      {"settlement_m", [&] { return parameters.settlement_at(time()); }},
                      {"footing_pressure_Pa", [&] { return model.footing_pressure(); }},
@@ -62,8 +63,7 @@ void FootingRun::visit(StateVisitor &visit)
 {
   residual.visit(visit);
   rotation.visit(visit);
-  visit("bearing_impulse", bearing_impulse);
-  visit("bearing_time", bearing_time);
+  bearing.visit(visit);
   pictures.visit(visit);
   visit_body(visit, model.body());
   visit_steps(visit, model.steps());
@@ -86,11 +86,7 @@ int FootingRun::go()
   };
   stage.move = [&] { model.drift(); };
   const auto is_at_the_limit = [&](const Moment &now) { return now.time >= (1 - bearing_share) * end; };
-  const auto add_bearing = [&]
-  {
-    bearing_impulse += model.footing_pressure() * model.time_step();
-    bearing_time += model.time_step();
-  };
+  const auto add_bearing = [&] { bearing.add(model.footing_pressure(), model.time_step()); };
   const auto times = [&](const auto n) { return either(every_time(end / std::max<double>(1, n)), at_the_end()); };
   const auto add_picture = [&] { pictures.add(time(), pictures_of(nullptr, &model.body())); };
   const bool is_done = run.advance(stage, {{times(parameters.output.n_samples), [&] { sample(history); }},
@@ -110,7 +106,7 @@ void FootingRun::sample(History &history)
 
 Summary FootingRun::summary() const
 {
-  const double limit = parameters.limit_pressure(), bearing = bearing_impulse / bearing_time;
+  const LimitPressure limit = parameters.limit_pressure();
   RunFigures figures = run.figures(0);
   figures.steps = run.loop().step();
   figures.time_step_s = model.steps().smallest_step();
@@ -123,9 +119,12 @@ Summary FootingRun::summary() const
   summary.set("elements", static_cast<std::int64_t>(model.body().n_elements()));
   summary.set("element_updates_per_second", updates / figures.wall_time_s, "1/s");
   summary.set("start_out_of_balance", model.start().residual.back());
-  summary.set("bearing_pressure_Pa", bearing, "Pa");
-  summary.set("limit_pressure_Pa", limit, "Pa");
-  summary.set("bearing_over_limit", bearing / limit);
+  summary.set("bearing_pressure_Pa", bearing.mean(), "Pa");
+  summary.set("bearing_pressure_lowest_Pa", bearing.lowest(), "Pa");
+  summary.set("bearing_pressure_highest_Pa", bearing.highest(), "Pa");
+  summary.set("limit_pressure_Pa", limit.davis, "Pa");
+  summary.set("limit_pressure_associated_Pa", limit.associated, "Pa");
+  summary.set("bearing_over_limit", bearing.mean() / limit.davis);
   summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
   summary.set("greatest_rotation_degrees", rotation.greatest(), "degrees");
   summary.set("stiffness_loss_over_footing_work", energy.stiffness_loss / energy.boundary_work);

@@ -77,6 +77,18 @@ class Results(Case):
         self.assertTrue(0 < deviations[1] < 0.14, deviations)
         self.assertLess(deviations[1], 0.8 * deviations[0])
 
+    def test_flow_that_is_not_associated(self):
+        """Compared with Davis' reduced strength: at 30 and 0 degrees tan phi and c times cos 30. Its history wanders."""
+        figures = self.figures("davis", ["Continuum/friction angle=30", "Continuum/dilation angle=0",
+                                         "Ground/elements under half the footing=4", "Footing/loading time=3",
+                                         "Footing/settlement=0.06"], file=FOLDER / "frictional.prm")
+        self.assertAlmostEqual(figures["limit_pressure_Pa"], 226.3e3, delta=100)
+        self.assertAlmostEqual(figures["limit_pressure_associated_Pa"], 334.7e3, delta=100)
+        self.assertLess(figures["bearing_pressure_lowest_Pa"], figures["bearing_pressure_Pa"])
+        self.assertGreater(figures["bearing_pressure_highest_Pa"], figures["bearing_pressure_Pa"])
+        # This mesh gives 14 % too much with associated flow, whose limit is 1.48 times as high.
+        self.assertTrue(0.95 < figures["bearing_over_limit"] < 1.2, figures)
+
     def test_stiffness_by_pressure(self):
         """Ground whose stiffness grows with the pressure: the step follows, so its share is of no account (the step of
         the start would give a tenth of the pressure), and what the law has no potential for is seen."""
