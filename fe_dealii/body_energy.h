@@ -1,33 +1,45 @@
 #pragma once
 
+#include <string>
+
 namespace bergamo::fe
 {
 
 /// Energies of a body [J] at the whole step of its last kick, the continuum's share included. Works and losses count
 /// from the first kick on. The leapfrog keeps
-///   kinetic + elastic + plastic + viscous − (boundary + gravity + external work) − step change = initial
+///   kinetic + elastic + plastic + viscous + stiffness loss − (boundary + gravity + external work) − step change
+///     = initial
 /// to rounding: kinetic is ½ v⁻·m v⁺ with the half-step velocities around the kick, v⁺ for a step as long as the one
 /// before, and every work and loss is ½(F_{n−1} + F_n)·(u_n − u_{n−1}).
 struct BodyEnergy
 {
   double kinetic = 0;
-  double elastic = 0; ///< ½ ∫ σ : C⁻¹ : σ, initial stress included
+  double elastic = 0; ///< that the present stresses store, initial stress included
   double plastic_dissipation = 0;
   double viscous_dissipation = 0; ///< by mass-proportional damping
-  double boundary_work = 0;       ///< of the reactions at prescribed velocities
+  /// Elastic work less what it has stored, where the stiffness depends on the pressure: such a law has no potential.
+  /// Small beside the works in a sound run.
+  double stiffness_loss = 0;
+  double boundary_work = 0; ///< of the reactions at prescribed velocities
   double gravity_work = 0;
   double external_work = 0; ///< of external_force()
   /// Σ ⅛ (Δt_before² − Δt_after²) a·m a over the changes of the time step: the kinetic energy above lies ⅛ Δt² a·m a
   /// below that of the velocity at the whole step, and jumps with it.
   double step_change = 0;
-  double initial = 0; ///< kinetic + elastic + plastic at the first kick
+  double initial = 0; ///< kinetic + elastic + the losses at the first kick
 
   /// What the balance fails to close by; zero to rounding in a sound run.
   double residual() const
   {
-    return kinetic + elastic + plastic_dissipation + viscous_dissipation - boundary_work - gravity_work -
-           external_work - step_change - initial;
+    return kinetic + elastic + plastic_dissipation + viscous_dissipation + stiffness_loss - boundary_work -
+           gravity_work - external_work - step_change - initial;
   }
 };
+
+/// Throws RunError for energies that no slow motion has. They are not finite; kinetic energy is below zero by more than
+/// a thousandth of the others: the leapfrog's ½ v⁻·m v⁺ is negative where the fastest modes hold the motion, as an
+/// unstable step makes them do; or the changing stiffness has given more than was put in.
+/// @param what and when: "the ground at time 3 s"; @param remedy what to choose: "a smaller time step"
+void require_bounded(const BodyEnergy &energy, const std::string &what, const std::string &remedy);
 
 } // namespace bergamo::fe

@@ -58,22 +58,21 @@ void MovingBody::gather_mass()
 {
   progress_.has_forces = 0; // elements of other masses have other forces
   scale_mass();
-  const auto gather = [&](std::vector<double> &total, const auto &factor)
+  mass_.assign(3 * n_nodes(), 0.);
+  gravitational_mass_.assign(n_nodes(), 0.);
+  std::vector<double> inertia(elements_->nodes_per_element()), gravitational(inertia.size());
+  for (std::size_t e = 0; e < n_elements(); ++e)
   {
-    total.assign(mass_.size(), 0.);
-    std::vector<double> mass(elements_->nodes_per_element());
-    for (std::size_t e = 0; e < n_elements(); ++e)
+    elements_->lumped_mass(e, inertia.data());
+    elements_->gravitational_mass(e, gravitational.data());
+    for (std::size_t v = 0; v < inertia.size(); ++v)
     {
-      elements_->lumped_mass(e, mass.data());
-      for (std::size_t v = 0; v < mass.size(); ++v)
-        for (int i = 0; i < 3; ++i)
-          total[3 * std::size_t(element_nodes(e)[v]) + i] += factor(e) * mass[v];
+      const std::size_t node = element_nodes(e)[v];
+      for (std::size_t i = 0; i < 3; ++i)
+        mass_[3 * node + i] += mass_factor(e) * inertia[v];
+      gravitational_mass_[node] += gravitational[v];
     }
-  };
-  gather(mass_, [&](const std::size_t e) { return mass_factor(e); });
-  if (mass_factor_.empty())
-    return;
-  gather(true_mass_, [](std::size_t) { return 1.; });
+  }
 }
 
 void MovingBody::scale_mass()
@@ -125,7 +124,7 @@ void MovingBody::compute_internal_force()
   const double *const now = displacement_.data();
   double *const before = displacement_of_stress_.data();
   const std::span<const double> element_force = elements_->forces();
-  Collected<std::size_t> inverted;
+  Collected<std::size_t> inverted, endless; // elements, nodes
   parallel_ranges(n_blocks, few_elements / 2 / block_elements,
                   [&](const std::size_t part, const std::size_t first, const std::size_t last)
                   {
@@ -139,7 +138,7 @@ void MovingBody::compute_internal_force()
                   });
   // Each node sums its elements in their order: no race, and the same bits whatever the threads.
   parallel_ranges(n_nodes(), few_nodes,
-                  [&](std::size_t, const std::size_t begin, const std::size_t end)
+                  [&](const std::size_t part, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t node = begin; node < end; ++node)
                     {
@@ -152,30 +151,15 @@ void MovingBody::compute_internal_force()
                         internal_force_[3 * node + i] = force[i];
                         before[3 * node + i] = now[3 * node + i];
                       }
+                      if (!std::isfinite(force[0] + force[1] + force[2]))
+                        endless.of(part).push_back(node);
                     }
                   });
   if (const std::vector<std::size_t> all = inverted.all(); !all.empty())
     report_inversion(all.front());
+  if (!endless.all().empty())
+    report_endless_forces();
   progress_.has_forces = 1;
-}
-
-std::array<double, 3> MovingBody::present_centre(const std::size_t element) const
-{
-  std::array<double, 3> centre{};
-  const std::span<const unsigned int> nodes = element_nodes(element);
-  for (const unsigned int node : nodes)
-    for (int i = 0; i < 3; ++i)
-      centre[i] += (node_position_[node][i] + displacement_[3 * std::size_t(node) + i]) / nodes.size();
-  return centre;
-}
-
-void MovingBody::report_inversion(const std::size_t element) const
-{
-  const std::array<double, 3> centre = present_centre(element);
-  std::ostringstream message;
-  message << name_ << ": element " << element << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
-          << ") m has collapsed or turned inside out; choose a smaller time step, a finer mesh there or a smaller load";
-  throw RunError(message.str());
 }
 
 /// A kick between two steps.
@@ -222,13 +206,16 @@ void MovingBody::kick(const double dt)
     total.before.add(block.before);
     total.after.add(block.after);
   }
+  if (!std::isfinite(total.kinetic + total.after.external))
+    report_endless_motion();
   ledger_.here = ledger_.ahead;
   ledger_.here.add(total.before);
   ledger_.ahead = ledger_.here;
   ledger_.ahead.add(total.after);
   ledger_.kinetic = total.kinetic;
   if (ledger_.last_step == 0)
-    ledger_.initial = ledger_.kinetic + elements_->elastic_energy() + elements_->dissipated_energy();
+    ledger_.initial =
+        ledger_.kinetic + elements_->elastic_energy() + elements_->dissipated_energy() + elements_->stiffness_loss();
   ledger_.last_step = dt;
   progress_.is_kicked = 1;
 }
@@ -241,14 +228,13 @@ MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t 
   // are alike.
   const double to_before = (kick.before - kick.time) / kick.time, to_after = (kick.time - kick.after) / kick.time;
   const bool changes = kick.before != kick.after;
-  const std::vector<double> &heavy_mass = this->heavy_mass();
   KickSums sums;
   for (std::size_t node = begin; node < end; ++node)
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::size_t dof = 3 * node + i;
       const double mass = mass_[dof], old = velocity_[dof];
-      const double external = external_force_[dof], weight = heavy_mass[dof] * forces_.gravity[i];
+      const double external = external_force_[dof], weight = gravitational_mass_[node] * forces_.gravity[i];
       const double force = external + weight - internal_force_[dof];
       const int constraint = constraint_of_dof_[dof];
       double fresh, damping, reaction = 0;
@@ -314,6 +300,7 @@ void MovingBody::drift(const double dt)
                   });
   progress_.is_kicked = 0;
   ++progress_.n_steps;
+  progress_.time += dt;
 }
 
 MovingBody::Constraint MovingBody::prescribe_velocity(const unsigned int boundary_id, const unsigned int component,
@@ -342,6 +329,20 @@ MovingBody::Constraint MovingBody::prescribe_velocity(const std::span<const unsi
   }
   constraint_velocity_.push_back(velocity);
   return constraint;
+}
+
+void MovingBody::make_rigid(const std::span<const unsigned int> nodes)
+{
+  std::vector<bool> is_among(n_nodes(), false);
+  for (const unsigned int node : nodes)
+    is_among[node] = true;
+  for (std::size_t e = 0; e < n_elements(); ++e)
+  {
+    const std::span<const unsigned int> own = element_nodes(e);
+    if (std::all_of(own.begin(), own.end(), [&](const unsigned int node) { return is_among[node]; }))
+      elements_->make_rigid(e);
+  }
+  progress_.has_forces = 0;
 }
 
 double MovingBody::reaction(const Constraint constraint) const
@@ -374,12 +375,14 @@ BodyEnergy MovingBody::energy() const
   energy.kinetic = ledger_.kinetic;
   energy.elastic = elements_->elastic_energy();
   energy.plastic_dissipation = elements_->dissipated_energy();
+  energy.stiffness_loss = elements_->stiffness_loss();
   energy.viscous_dissipation = ledger_.here.viscous;
   energy.boundary_work = ledger_.here.boundary;
   energy.gravity_work = ledger_.here.gravity;
   energy.external_work = ledger_.here.external;
   energy.step_change = ledger_.here.step_change;
-  energy.initial = ledger_.last_step > 0 ? ledger_.initial : energy.elastic + energy.plastic_dissipation;
+  energy.initial =
+      ledger_.last_step > 0 ? ledger_.initial : energy.elastic + energy.plastic_dissipation + energy.stiffness_loss;
   return energy;
 }
 

@@ -53,14 +53,15 @@ public:
   /// @{
 
   /// Internal forces [N] and stresses of the present displacement; the strain increment is that since the last call,
-  /// and none is made where nothing has moved since. Throws RunError, with its place, where an element has turned
-  /// inside out.
+  /// and none is made where nothing has moved since. Throws RunError, with its place and the time, where an element has
+  /// turned inside out or has forces that are not finite.
   void compute_internal_force();
 
   /// v⁺ from v⁻ and the forces: m (v⁺ − v⁻)/h = f_ext + weight − f_int − α m (v⁻ + v⁺)/2 with h = kick_time(dt). The
   /// damping is centred: it adds no limit to the time step. Prescribed dofs take their velocity and get a reaction.
   /// @param dt of the step to come [s]; ConfigError unless it is positive and finite
-  /// Throws RunError for a second kick without a drift in between: it would accelerate the body twice.
+  /// Throws RunError for a second kick without a drift in between, which would accelerate the body twice, and, with
+  /// place and time, where a load or a motion is not finite.
   void kick(double dt);
 
   /// u += dt v⁺. Throws RunError unless a kick with the same dt came before.
@@ -72,6 +73,8 @@ public:
 
   /// Number of drifts so far.
   std::int64_t n_steps() const { return static_cast<std::int64_t>(progress_.n_steps); }
+
+  double time() const { return progress_.time; } ///< sum of the drifts so far [s]
 
   /// Takes the present displacement and stresses for a state of rest: no velocity, reactions that hold the prescribed
   /// dofs, accounts that start anew. Call after compute_internal_force().
@@ -102,6 +105,9 @@ public:
     return constraint_of_dof_[dof] < 0 ? std::nullopt : std::optional(Constraint(constraint_of_dof_[dof]));
   }
 
+  /// Elements whose nodes are all among these move as one rigid body, see ElementGroup::is_rigid().
+  void make_rigid(std::span<const unsigned int> nodes);
+
   /// Resultant force that the boundary exerts on the body in the constrained component, at the last kick [N].
   double reaction(Constraint constraint) const;
   /// @}
@@ -117,8 +123,8 @@ public:
   std::span<const double> internal_force() const { return internal_force_; } ///< [N]
   std::span<const double> reaction_force() const { return reaction_force_; } ///< [N], zero at free dofs
   std::span<const double> mass() const { return mass_; } ///< inertia, lumped, share and scaling included [kg]
-  /// Force of gravity on a dof, of the true mass whatever its scaling [N].
-  double weight(const std::size_t dof) const { return heavy_mass()[dof] * forces_.gravity[dof % 3]; }
+  /// Force of gravity on a dof, ∫ N ρ g dV of the true mass whatever its scaling and lumping [N].
+  double weight(const std::size_t dof) const { return gravitational_mass_[dof / 3] * forces_.gravity[dof % 3]; }
   /// @}
 
   /// @name Nodes and elements
@@ -140,6 +146,9 @@ public:
   }
   Stress average_stress() const;                                   ///< volume average over the body, whatever the share
   std::array<double, 3> present_centre(std::size_t element) const; ///< mean of its nodes' places [m]
+  std::array<double, 3> reference_centre(std::size_t element) const; ///< the same where the body started [m]
+  /// "NAME: element E at (x, y, z) m has, at time t s,": what the message of a failing run begins with.
+  std::string describe(std::size_t element) const;
   /// Factor of an element's inertia; 1 where it is not scaled.
   double mass_factor(const std::size_t element) const { return mass_factor_.empty() ? 1 : mass_factor_[element]; }
   const MassScaling &mass_scaling() const { return mass_scaling_; }
@@ -169,8 +178,9 @@ protected:
 
 private:
   void scale_mass();
-  const std::vector<double> &heavy_mass() const { return mass_factor_.empty() ? mass_ : true_mass_; }
   [[noreturn]] void report_inversion(std::size_t element) const;
+  [[noreturn]] void report_endless_forces() const;
+  [[noreturn]] void report_endless_motion() const;
 
   std::string name_;
   MassForces forces_;
@@ -180,10 +190,10 @@ private:
   Rows<unsigned int> slots_; // places of each node in elements_->nodes(), ascending
 
   std::vector<double> displacement_, velocity_, internal_force_, external_force_, reaction_force_, mass_;
+  std::vector<double> gravitational_mass_;     // of the nodes, see ElementGroup
   std::vector<double> displacement_of_stress_; // where the stresses were computed last
 
   std::vector<double> mass_factor_; // of the elements; none where nothing is scaled
-  std::vector<double> true_mass_;   // without the factors; none where nothing is scaled
   MassScaling mass_scaling_;
 
   std::vector<int> constraint_of_dof_; // −1: free
@@ -211,6 +221,7 @@ private:
     double has_forces = 0; // 1: those of displacement_of_stress_ are known
     double is_kicked = 0;  // 1 from a kick to its drift
     double n_steps = 0;    // drifts so far
+    double time = 0;       // their sum [s]
   };
   Progress progress_;
 

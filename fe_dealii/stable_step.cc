@@ -19,6 +19,10 @@ StableStep stable_step(const MovingBody &body)
   parallel_for(
       eigenvalue.size(), [&](const std::size_t e)
       { eigenvalue[e] = largest_eigenvalue(body.elements(), e, body.displacement().data()) / body.mass_factor(e); });
+  for (std::size_t e = 0; e < eigenvalue.size(); ++e)
+    if (!std::isfinite(eigenvalue[e]))
+      throw RunError(body.describe(e) + " a stiffness that is no finite number; look for what is none in the motion of "
+                                        "its nodes");
   const auto largest = std::max_element(eigenvalue.begin(), eigenvalue.end());
   return {2 / std::sqrt(*largest), *largest, std::size_t(largest - eigenvalue.begin())};
 }

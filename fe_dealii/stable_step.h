@@ -18,7 +18,8 @@ struct StableStep
 /// inertia that mass scaling gave. A stretched state may stiffen: ask again during a run of large strain. No eigenvalue
 /// of the body exceeds the largest one of its elements, K_e x = λ M_e x with the lumped element mass (Belytschko, Liu,
 /// Moran 2000, sec. 6.2; Wellmann 2.58). Each λ_e is bounded from above, by at most 0.4 %. Prescribed velocities and
-/// damping do not lower it. Pressures that follow a surface are not in it.
+/// damping do not lower it. Pressures that follow a surface are not in it. Throws RunError, with place and time, where
+/// an element's stiffness is not finite.
 StableStep stable_step(const MovingBody &body);
 
 /// Throws RunError, with the stable step and the place of the element that sets it, where a time step [s] exceeds

@@ -38,7 +38,8 @@ double BodyMover::stable_step()
 MoverEnergy BodyMover::energy() const
 {
   const fe::BodyEnergy e = body_->energy();
-  return {e.kinetic, e.elastic, e.plastic_dissipation + e.viscous_dissipation, e.boundary_work + e.gravity_work};
+  return {e.kinetic, e.elastic, e.plastic_dissipation + e.viscous_dissipation + e.stiffness_loss,
+          e.boundary_work + e.gravity_work};
 }
 
 BodyMover::Rigid &BodyMover::hold(const std::span<const unsigned int> nodes, const fe::RigidBodyParameters &parameters)

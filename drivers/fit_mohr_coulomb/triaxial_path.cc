@@ -25,22 +25,25 @@ Step hold_pressure(const fe::MohrCoulomb &material, const fe::Stress &old, const
   };
   const auto residual_of = [&](const fe::Stress &stress) { return 0.5 * (stress[0] + stress[1]) + pressure; };
 
-  const double elastic_modulus = 2 * (material.lame_modulus() + material.shear_modulus());
+  const double factor = material.depends_on_pressure() ? material.stiffness_factor(fe::mean_stress(old)) : 1;
+  const double modulus = 2 * factor * (material.lame_modulus() + material.shear_modulus());
   // Some rounding of the trial stress, which a large step makes far larger than the pressure, is left over.
-  const double tolerance = 1e-12 * pressure + 1e-14 * elastic_modulus * std::abs(axial);
+  const auto tolerance = [&](const double lateral)
+  { return 1e-12 * pressure + 1e-14 * (modulus * (std::abs(axial) + std::abs(lateral)) + std::abs(old[2])); };
+
   double earlier = 0;
   double earlier_residual = residual_of(stress_at(earlier));
-  double lateral = -earlier_residual / elastic_modulus;
+  double lateral = -earlier_residual / modulus;
   for (int iteration = 0; iteration < 100; ++iteration)
   {
     const fe::Stress stress = stress_at(lateral);
     const double residual = residual_of(stress);
-    if (std::abs(residual) <= tolerance)
+    if (std::abs(residual) <= tolerance(lateral))
       return {lateral, stress};
     const double slope = (residual - earlier_residual) / (lateral - earlier);
     earlier = lateral;
     earlier_residual = residual;
-    lateral -= residual / (slope > 0 ? slope : elastic_modulus);
+    lateral -= residual / (slope > 0 ? slope : modulus);
   }
   throw RunError("no lateral strain holds the pressure of " + std::to_string(pressure) +
                  " Pa on the continuum; check the fitted parameters");

@@ -12,6 +12,23 @@ struct BearingFactors
   double cohesion = 0, surcharge = 0, weight = 0; ///< Nc, Nq, Nγ
 };
 
+struct Strength
+{
+  double friction_angle = 0; ///< [degrees]
+  double cohesion = 0;       ///< [Pa]
+};
+
+/// What slip along a zero extension line bears where the ground dilates less than associated flow would: both tan φ and
+/// c times cos ψ cos φ/(1 − sin ψ sin φ) (Davis, Theories of plasticity and the failure of soil masses, 1968). @param
+/// dilation_angle ψ [degrees]
+inline Strength davis_strength(const Strength &strength, const double dilation_angle)
+{
+  constexpr double degree = std::numbers::pi / 180;
+  const double phi = strength.friction_angle * degree, psi = dilation_angle * degree;
+  const double share = std::cos(psi) * std::cos(phi) / (1 - std::sin(psi) * std::sin(phi));
+  return {std::atan(share * std::tan(phi)) / degree, share * strength.cohesion};
+}
+
 /// Nc and Nq are exact without weight (Prandtl 1921, Reissner 1924). Nγ is the fit of Davis and Booker (1971), after
 /// Poulos et al. (2001), a tenth above the exact values at 30 degrees. @param friction_angle φ [degrees]
 inline BearingFactors bearing_factors(const double friction_angle, const bool rough)

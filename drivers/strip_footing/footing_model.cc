@@ -1,7 +1,6 @@
 #include "drivers/strip_footing/footing_model.h"
 
 #include "fe_dealii/mesh/box_mesh.h"
-#include "fe_dealii/stable_step.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -70,7 +69,8 @@ fe::BoundaryCondition motion(const unsigned int boundary, const unsigned int com
 } // namespace
 
 FootingModel::FootingModel(const FootingParameters &p)
-    : area(0.5 * p.width * p.element_size()), ground(std::make_unique<fe::ExplicitBody>(make_ground(p)))
+    : area(0.5 * p.width * p.element_size()), ground(std::make_unique<fe::ExplicitBody>(make_ground(p))),
+      share(p.step_share)
 {
   std::vector<fe::BoundaryCondition> list;
   list.push_back(motion(footing, 2, velocity_of(p)));
@@ -87,14 +87,14 @@ FootingModel::FootingModel(const FootingParameters &p)
       fe::SurfaceLoad(fe::boundary_surface(ground->dof_handler(), boundary), ground->node_position())
           .add_traction({0, 0, -p.surcharge}, ground->external_force());
   start_report = fe::find_equilibrium(*ground);
-  stable = fe::stable_step(*ground).time_step;
-  dt = p.step_share * stable;
+  control = std::make_unique<fe::StepControl>(*ground);
 }
 
-void FootingModel::compute_forces(const double time)
+void FootingModel::compute_forces()
 {
-  conditions->apply(time, dt);
   ground->compute_internal_force();
+  dt = control->next(share);
+  conditions->apply(time(), dt);
 }
 
 double FootingModel::footing_pressure() const

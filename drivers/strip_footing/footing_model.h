@@ -4,6 +4,7 @@
 #include "fe_dealii/conditions/boundary_conditions.h"
 #include "fe_dealii/equilibrium/static_equilibrium.h"
 #include "fe_dealii/explicit_body.h"
+#include "fe_dealii/step_control.h"
 
 #include <memory>
 
@@ -18,7 +19,7 @@ public:
   /// Sets up the ground at rest. Throws what the mesh, the material and the static start refuse.
   explicit FootingModel(const FootingParameters &parameters);
 
-  void compute_forces(double time); ///< of the present state; the footing's motion over the step to come
+  void compute_forces(); ///< of the present state; the footing's motion over the step to come, and how long that is
   void kick() { body().kick(dt); }
   void drift() { body().drift(dt); }
 
@@ -28,8 +29,10 @@ public:
   fe::ExplicitBody &body() { return *ground; }
   const fe::ExplicitBody &body() const { return *ground; }
   const fe::EquilibriumReport &start() const { return start_report; }
-  double time_step() const { return dt; }            ///< [s]
-  double stable_time_step() const { return stable; } ///< at the start [s]
+  double time() const { return body().time(); } ///< [s]
+  double time_step() const { return dt; }       ///< to come, after compute_forces() [s]
+  const fe::StepControl &steps() const { return *control; }
+  fe::StepControl &steps() { return *control; }
 
 private:
   double area; // of the half footing [m²]
@@ -37,7 +40,8 @@ private:
   std::unique_ptr<fe::BoundaryConditions> conditions;
   std::vector<unsigned int> footing_nodes;
   fe::EquilibriumReport start_report;
-  double dt = 0, stable = 0;
+  std::unique_ptr<fe::StepControl> control;
+  double share, dt = 0;
 };
 
 } // namespace bergamo::driver

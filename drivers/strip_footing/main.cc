@@ -1,12 +1,14 @@
-#include "dem/core/error.h"
 #include "drivers/common/driver_main.h"
 #include "drivers/common/run/energy_residual.h"
 #include "drivers/common/run/model_pictures.h"
+#include "drivers/common/run/rotation_watch.h"
 #include "drivers/common/run/run.h"
 #include "drivers/common/run/step_count.h"
 #include "drivers/common/run/visit_models.h"
+#include "drivers/strip_footing/bearing_mean.h"
 #include "drivers/strip_footing/footing_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace
@@ -31,7 +33,7 @@ public:
   int go();
 
 private:
-  double time() const { return run.loop().step() * model.time_step(); }
+  double time() const { return model.time(); }
   void visit(StateVisitor &visit);
   void sample(History &history);
   Summary summary() const;
@@ -42,7 +44,8 @@ private:
   PictureSeries pictures;
   fe::BodyEnergy energy; // of the last sample
   EnergyResidual residual;
-  double bearing_sum = 0, n_bearing = 0; // of the pressures over the last part of the settlement [Pa]
+  RotationWatch rotation;
+  BearingMean bearing; // over the last part of the settlement
   const Table table{{{"time_s", [&] { return time(); }},
                      {"settlement_m", [&] { return parameters.settlement_at(time()); }},
                      {"footing_pressure_Pa", [&] { return model.footing_pressure(); }},
@@ -50,6 +53,7 @@ private:
                      {"energy_elastic_J", [&] { return energy.elastic; }},
                      {"energy_plastic_loss_J", [&] { return energy.plastic_dissipation; }},
                      {"energy_viscous_loss_J", [&] { return energy.viscous_dissipation; }},
+                     {"energy_stiffness_loss_J", [&] { return energy.stiffness_loss; }},
                      {"energy_footing_work_J", [&] { return energy.boundary_work; }},
                      {"energy_gravity_work_J", [&] { return energy.gravity_work; }},
                      {"energy_surcharge_work_J", [&] { return energy.external_work; }},
@@ -59,55 +63,56 @@ private:
 void FootingRun::visit(StateVisitor &visit)
 {
   residual.visit(visit);
-  visit("bearing_sum", bearing_sum);
-  visit("n_bearing", n_bearing);
+  rotation.visit(visit);
+  bearing.visit(visit);
   pictures.visit(visit);
   visit_body(visit, model.body());
+  visit_steps(visit, model.steps());
 }
 
 int FootingRun::go()
 {
-  const std::int64_t n_steps =
-      steps_over({"Footing/loading time", parameters.loading_time}, {"Output/step share", model.time_step()});
+  steps_over({"Footing/loading time", parameters.loading_time}, {"Output/step share", model.time_step()}); // or refused
   run.open();
   History history = run.history(table);
-  Stage stage = run.even_stage("settlement", n_steps, model.time_step());
+  const double end = parameters.loading_time;
+  Stage stage;
+  stage.name = "settlement";
+  stage.time = [&] { return time(); };
+  stage.is_last = [&] { return time() >= end; };
+  stage.fraction = [&] { return time() / end; };
   stage.compute = [&]
   {
-    model.compute_forces(time());
+    model.compute_forces();
     model.kick();
   };
   stage.move = [&] { model.drift(); };
-  const auto is_at_the_limit = [&](const Moment &now) { return now.step >= (1 - bearing_share) * n_steps; };
-  const auto add_bearing = [&]
-  {
-    bearing_sum += model.footing_pressure();
-    n_bearing += 1;
-  };
+  const auto is_at_the_limit = [&](const Moment &now) { return now.time >= (1 - bearing_share) * end; };
+  const auto add_bearing = [&] { bearing.add(model.footing_pressure(), model.time_step()); };
+  const auto times = [&](const auto n) { return either(every_time(end / std::max<double>(1, n)), at_the_end()); };
   const auto add_picture = [&] { pictures.add(time(), pictures_of(nullptr, &model.body())); };
-  const bool is_done = run.advance(stage, {{evenly(parameters.output.n_samples, n_steps), [&] { sample(history); }},
+  const bool is_done = run.advance(stage, {{times(parameters.output.n_samples), [&] { sample(history); }},
                                            {is_at_the_limit, add_bearing},
-                                           {evenly(parameters.output.n_pictures - 1, n_steps), add_picture}});
+                                           {times(parameters.output.n_pictures - 1), add_picture}});
   return is_done ? run.finish(summary(), {"strip_footing/plot.py", "energy.py"}) : run.stop();
 }
 
 void FootingRun::sample(History &history)
 {
-  if (!model.body().is_finite())
-    throw RunError("the run diverged: the ground is not finite at time " + std::to_string(time()) +
-                   " s; choose a smaller Output/step share");
   energy = model.body().energy();
+  fe::require_bounded(energy, "the ground at time " + std::to_string(time()) + " s", "a smaller Output/step share");
   residual.add(energy.residual(), energy.boundary_work);
   history.append(table.row());
+  rotation.look(model.body(), run.progress());
 }
 
 Summary FootingRun::summary() const
 {
-  const double limit = parameters.limit_pressure(), bearing = bearing_sum / n_bearing;
+  const LimitPressure limit = parameters.limit_pressure();
   RunFigures figures = run.figures(0);
   figures.steps = run.loop().step();
-  figures.time_step_s = model.time_step();
-  figures.stable_time_step_s = model.stable_time_step();
+  figures.time_step_s = model.steps().smallest_step();
+  figures.stable_time_step_s = model.steps().smallest_stable();
   figures.energy_residual = residual.relative();
   const double updates = static_cast<double>(model.body().n_elements()) * run.loop().steps_here();
   Summary summary;
@@ -116,10 +121,15 @@ Summary FootingRun::summary() const
   summary.set("elements", static_cast<std::int64_t>(model.body().n_elements()));
   summary.set("element_updates_per_second", updates / figures.wall_time_s, "1/s");
   summary.set("start_out_of_balance", model.start().residual.back());
-  summary.set("bearing_pressure_Pa", bearing, "Pa");
-  summary.set("limit_pressure_Pa", limit, "Pa");
-  summary.set("bearing_over_limit", bearing / limit);
+  summary.set("bearing_pressure_Pa", bearing.mean(), "Pa");
+  summary.set("bearing_pressure_lowest_Pa", bearing.lowest(), "Pa");
+  summary.set("bearing_pressure_highest_Pa", bearing.highest(), "Pa");
+  summary.set("limit_pressure_Pa", limit.davis, "Pa");
+  summary.set("limit_pressure_associated_Pa", limit.associated, "Pa");
+  summary.set("bearing_over_limit", bearing.mean() / limit.davis);
   summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
+  summary.set("greatest_rotation_degrees", rotation.greatest(), "degrees");
+  summary.set("stiffness_loss_over_footing_work", energy.stiffness_loss / energy.boundary_work);
   return summary;
 }
 

@@ -74,11 +74,16 @@ void FootingParameters::validate() const
            0.2 * width, " m");
 }
 
-double FootingParameters::limit_pressure() const
+LimitPressure FootingParameters::limit_pressure() const
 {
-  const BearingFactors n = bearing_factors(continuum.friction_angle, rough);
-  return continuum.cohesion * n.cohesion + surcharge * n.surcharge +
-         0.5 * continuum.density * gravity * width * n.weight;
+  const auto pressure = [&](const Strength &strength)
+  {
+    const BearingFactors n = bearing_factors(strength.friction_angle, rough);
+    return strength.cohesion * n.cohesion + surcharge * n.surcharge +
+           0.5 * continuum.density * gravity * width * n.weight;
+  };
+  const Strength full{continuum.friction_angle, continuum.cohesion};
+  return {pressure(davis_strength(full, continuum.dilation_angle)), pressure(full)};
 }
 
 } // namespace bergamo::driver

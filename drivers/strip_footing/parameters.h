@@ -10,6 +10,13 @@
 namespace bergamo::driver
 {
 
+/// Limit pressures in closed form [Pa].
+struct LimitPressure
+{
+  double davis;      ///< with the strength that the flow rule leaves, see davis_strength()
+  double associated; ///< as if the dilation angle were the friction angle: the same there, an upper bound else
+};
+
 /// Everything that steers the footing. SI units; angles in degrees.
 struct FootingParameters
 {
@@ -51,7 +58,7 @@ struct FootingParameters
   {
     return speed() * (time < ramp_time() ? 0.5 * time * time / ramp_time() : time - 0.5 * ramp_time());
   }
-  double limit_pressure() const; ///< in closed form, see bearing_factors(); cohesion, surcharge, weight [Pa]
+  LimitPressure limit_pressure() const; ///< from cohesion, surcharge and weight, see bearing_factors()
 };
 
 } // namespace bergamo::driver

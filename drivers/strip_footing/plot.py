@@ -35,7 +35,7 @@ def last_mesh(folder):
     faces, strain = [], []
     for cell in range(grid.GetNumberOfCells()):
         points = grid.GetCell(cell).GetPointIds()
-        ids = np.array([points.GetId(k) for k in range(points.GetNumberOfIds())])
+        ids = np.array([points.GetId(k) for k in range(8)])  # the corners come first in quadratic cells, too
         front = ids[np.argsort(places[ids, 1], kind="stable")[:4]]
         x, z = places[front, 0], places[front, 2]
         around = np.argsort(np.arctan2(z - z.mean(), x - x.mean()))

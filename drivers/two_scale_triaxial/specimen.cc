@@ -38,9 +38,9 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
   return std::make_unique<fe::ExplicitBody>(fe::make_box_body(mesh, body));
 }
 
-void require_stable(const fe::ExplicitBody &body, const double step, const std::string &state)
+/// @param limit stable step of the continuum [s]; @param state the body is in
+void require_below(const double limit, const double step, const std::string &state)
 {
-  const double limit = fe::stable_step(body).time_step;
   if (step > limit)
     reject("Loading/time step is ", step, " s: it must stay below ", limit, " s, the stable step of the continuum",
            state);
@@ -64,8 +64,8 @@ void require_stable_continuum(const TriaxialParameters &parameters)
   constexpr double densest = 0.74; // solid fraction; the cube shrinks until the grains bear the pressure
   const double shrinkage = parameters.has_grains() ? std::min(1., parameters.expected_solid_fraction / densest) : 1.;
   const dem::Box least{Vec3::Zero(), Vec3::Constant(parameters.edge * std::cbrt(shrinkage))};
-  require_stable(*make_body(parameters, least), parameters.simulation.time_step,
-                 parameters.has_grains() ? " if the grains pack as densely as they can" : "");
+  require_below(fe::stable_step(*make_body(parameters, least)).time_step, parameters.simulation.time_step,
+                parameters.has_grains() ? " if the grains pack as densely as they can" : "");
 }
 
 Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start)
@@ -87,8 +87,10 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
       if (face != 4 || !is_joined)
         faces[face].wall = wall++;
   }
-  if (model.body())
-    require_stable(*model.body(), step, " on the packed cube");
+  if (!model.body())
+    return;
+  body_steps.emplace(*model.body());
+  require_below(body_steps->stable().time_step, step, " on the packed cube");
 }
 
 void Specimen::join(const std::vector<Vec3> &reference_by_id, const double layer)
@@ -108,6 +110,8 @@ void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
 {
   strain = strain_now;
   model.compute_forces();
+  if (body_steps)
+    body_steps->require_stable(step);
   for (int d = 0; d < 3; ++d)
   {
     const double velocity = edges[d] * (strain_next[d] - strain_now[d]) / step;
@@ -125,9 +129,9 @@ SpecimenSample Specimen::measure(const double time) const
   const dem::Simulation *grains = model.grains();
   if (grains)
     grains->check_finite();
-  if (model.body() && !model.body()->is_finite())
-    throw RunError("the run diverged: the continuum is not finite at time " + std::to_string(time) +
-                   " s; choose a smaller Loading/time step");
+  if (model.body())
+    fe::require_bounded(model.body()->energy(), "the continuum at time " + std::to_string(time) + " s",
+                        "a smaller Loading/time step");
   SpecimenSample sample{.time = time,
                         .stage = parameters.program.stage(time),
                         .strain = strain,
@@ -184,6 +188,8 @@ void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, Loa
     specimen = std::make_unique<Specimen>(parameters, std::move(grains), start);
   if (specimen->model.body())
     visit_body(visit, *specimen->model.body());
+  if (specimen->body_steps)
+    visit_steps(visit, *specimen->body_steps);
 }
 
 } // namespace bergamo::driver

@@ -3,6 +3,7 @@
 #include "coupling/adapter/two_scale_model.h"
 #include "drivers/two_scale_triaxial/packing_stage.h"
 #include "drivers/two_scale_triaxial/specimen_sample.h"
+#include "fe_dealii/step_control.h"
 
 #include <array>
 #include <memory>
@@ -25,7 +26,8 @@ public:
   /// @throws ConfigError where the time step is above the stable one of the continuum
   Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start);
 
-  /// One time step towards the strains at its end; measure() may be called in between.
+  /// One time step towards the strains at its end; measure() may be called in between. Throws RunError where the
+  /// continuum has become too stiff for the step.
   void compute(const Vec3 &strain_now, const Vec3 &strain_next);
   void move() { model.drift(); }
 
@@ -38,6 +40,7 @@ public:
   Vec3 reference_edges() const { return edges; } ///< [m]
 
   coupling::TwoScaleModel model;
+  std::optional<fe::StepControl> body_steps; ///< watches that of the continuum
 
 private:
   struct Face

@@ -2,6 +2,9 @@
 
 #include "dem/core/error.h"
 
+#include <deal.II/base/types.h>
+
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -23,6 +26,18 @@ constexpr std::pair<const char *, ConditionKind> kinds[] = {{"displacement", Con
                     "such as 5 displacement z -0.01*t");
 }
 
+/// "5 displacement z -0.01*t": as parse_condition() reads it.
+std::string text_of(const BoundaryCondition &condition)
+{
+  std::string text = std::to_string(condition.boundary_id);
+  for (const auto &[name, value] : kinds)
+    if (condition.kind == value)
+      text += std::string(" ") + name;
+  if (condition.kind != ConditionKind::pressure)
+    text += std::string(" ") + "xyz"[condition.component];
+  return text + " " + condition.value.text();
+}
+
 bool is_motion(const ConditionKind kind)
 {
   return kind == ConditionKind::displacement || kind == ConditionKind::velocity;
@@ -38,6 +53,9 @@ BoundaryCondition parse_condition(const std::string &text)
   std::string kind;
   if (!(words >> id) || id < 0)
     reject(text, "it does not begin with the number of a boundary");
+  if (id >= dealii::numbers::internal_face_boundary_id)
+    reject(text, std::to_string(id) + " is no number of a boundary, which end at " +
+                     std::to_string(dealii::numbers::internal_face_boundary_id - 1));
   condition.boundary_id = id;
   words >> kind;
   bool known = false;
@@ -76,11 +94,37 @@ BoundaryConditions::BoundaryConditions(ExplicitBody &body, std::vector<BoundaryC
       throw ConfigError("boundary condition: component " + std::to_string(c.component) +
                         " is not allowed; choose 0, 1 or 2 for x, y, z");
     if (is_motion(c.kind))
+    {
+      check_motion(c);
       part.constraint = body.prescribe_velocity(c.boundary_id, c.component);
+    }
     else
       part.load.emplace(boundary_surface(body.dof_handler(), c.boundary_id), body.node_position());
     parts.push_back(std::move(part));
   }
+}
+
+void BoundaryConditions::check_motion(const BoundaryCondition &condition) const
+{
+  const std::string text = text_of(condition);
+  constexpr double rounding = 1e-12; // [m]
+  if (condition.kind == ConditionKind::displacement && std::abs(condition.value(0)) > rounding)
+    throw ConfigError("boundary condition '" + text + "': the displacement begins with " +
+                      TimeFunction(condition.value(0)).text() +
+                      " m, which the boundary would have to reach at once; let it begin with 0, as in " +
+                      condition.value.text() + "*min(t/0.1, 1)");
+  for (const Part &other : parts)
+    if (is_motion(other.condition.kind) && other.condition.boundary_id == condition.boundary_id &&
+        other.condition.component == condition.component)
+      throw ConfigError("boundary condition '" + text + "': the boundary has '" + text_of(other.condition) +
+                        "' along the same axis already; leave one of them out");
+  const std::vector<unsigned int> nodes = body.boundary_nodes(condition.boundary_id);
+  if (std::all_of(nodes.begin(), nodes.end(),
+                  [&](const unsigned int node)
+                  { return body.constraint_of(3 * std::size_t(node) + condition.component).has_value(); }))
+    throw ConfigError("boundary condition '" + text +
+                      "': conditions before it hold all nodes of the boundary along that axis; leave it out, or put it "
+                      "before them");
 }
 
 void BoundaryConditions::apply(const double time, const double dt)

@@ -34,11 +34,13 @@ struct BoundaryCondition
 BoundaryCondition parse_condition(const std::string &text);
 
 /// Moves and loads the boundaries of a body as prescribed over time. A dof belongs to the first condition that names
-/// it.
+/// it, so that edges may be shared.
 class BoundaryConditions
 {
 public:
-  /// Throws ConfigError for a boundary that the mesh lacks or a component above 2.
+  /// Throws ConfigError for a boundary that the mesh lacks or a component above 2, for a displacement that does not
+  /// begin with 0, and for a motion that has no effect: a second one of a boundary along the same axis, or one of nodes
+  /// that are all held by others.
   BoundaryConditions(ExplicitBody &body, std::vector<BoundaryCondition> conditions);
 
   /// To be called in every step, after clear_external_force() and before kick(): adds the loads of this time and sets
@@ -57,6 +59,8 @@ private:
     std::optional<ExplicitBody::Constraint> constraint; ///< of a motion
     std::optional<SurfaceLoad> load;                    ///< of a load
   };
+
+  void check_motion(const BoundaryCondition &condition) const;
 
   ExplicitBody &body;
   std::vector<Part> parts;

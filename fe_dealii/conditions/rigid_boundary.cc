@@ -3,10 +3,6 @@
 #include "dem/core/error.h"
 #include "fe_dealii/material/elastic_parameters.h"
 
-#include <deal.II/base/point.h>
-#include <deal.II/base/tensor.h>
-#include <deal.II/physics/transformations.h>
-
 #include <cmath>
 #include <string>
 
@@ -16,63 +12,64 @@ namespace
 {
 
 using Vector = RigidBoundary::Vector;
-using Matrix = dealii::Tensor<2, 3>;
-using Column = dealii::Tensor<1, 3>;
-
-Column column(const Vector &v)
-{
-  Column result;
-  for (int i = 0; i < 3; ++i)
-    result[i] = v[i];
-  return result;
-}
-
-Vector vector(const Column &v)
-{
-  return {v[0], v[1], v[2]};
-}
-
-Matrix matrix(const double (&m)[3][3])
-{
-  Matrix result;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      result[i][j] = m[i][j];
-  return result;
-}
-
-void store(const Matrix &m, double (&result)[3][3])
-{
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      result[i][j] = m[i][j];
-}
 
 Vector cross(const Vector &a, const Vector &b)
 {
-  return vector(dealii::cross_product_3d(column(a), column(b)));
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// m (|a|² I − a ⊗ a).
-Matrix inertia_of(const double mass, const Column &arm)
+Vector minus(const Vector &a, const Vector &b)
 {
-  Matrix result;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      result[i][j] = mass * ((i == j) * arm.norm_square() - arm[i] * arm[j]);
-  return result;
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// Rotation by the vector's length [rad] about it.
-Matrix rotation(const Column &turn)
+Vector place_of(const MovingBody &body, const unsigned int node)
 {
-  const double angle = turn.norm();
-  Matrix identity;
+  Vector place = body.node_position()[node];
+  for (std::size_t i = 0; i < 3; ++i)
+    place[i] += body.displacement()[3 * std::size_t(node) + i];
+  return place;
+}
+
+/// Of the rigid body and the nodes that it takes, as they lie now.
+RigidInertia inertia_of_both(const MovingBody &body, const std::span<const unsigned int> nodes,
+                             const RigidBodyParameters &own)
+{
+  RigidInertia both;
+  both.mass = own.mass;
   for (int i = 0; i < 3; ++i)
-    identity[i][i] = 1;
-  if (angle == 0)
-    return identity;
-  return dealii::Physics::Transformations::Rotations::rotation_matrix_3d(dealii::Point<3>(Column(turn / angle)), angle);
+    both.centre[i] = own.mass * own.centre[i];
+  for (const unsigned int node : nodes)
+  {
+    const double mass = body.mass()[3 * std::size_t(node)];
+    both.mass += mass;
+    for (int i = 0; i < 3; ++i)
+      both.centre[i] += mass * place_of(body, node)[i];
+  }
+  for (double &component : both.centre)
+    component /= both.mass;
+  both.add_point(own.mass, minus(own.centre, both.centre));
+  for (int i = 0; i < 3; ++i)
+    both.inertia[i][i] += own.inertia[i];
+  for (const unsigned int node : nodes)
+    both.add_point(body.mass()[3 * std::size_t(node)], minus(place_of(body, node), both.centre));
+  return both;
+}
+
+/// Throws ConfigError for nodes that are none or held by others.
+std::span<const unsigned int> checked(const MovingBody &body, const std::span<const unsigned int> nodes)
+{
+  if (nodes.empty())
+    throw ConfigError("rigid body: it has no nodes; name a boundary or nodes of the mesh");
+  for (const unsigned int node : nodes)
+    for (unsigned int i = 0; i < 3; ++i)
+      if (node >= body.n_nodes() || body.constraint_of(3 * std::size_t(node) + i))
+        throw ConfigError("rigid body: node " + std::to_string(node) +
+                          (node < body.n_nodes()
+                               ? " is held by another condition; prescribe the rigid body first, "
+                                 "or leave the node out"
+                               : " does not exist; the mesh has " + std::to_string(body.n_nodes()) + " nodes"));
+  return nodes;
 }
 
 } // namespace
@@ -93,42 +90,20 @@ void RigidBodyParameters::validate() const
 RigidBoundary::RigidBoundary(MovingBody &body, const std::span<const unsigned int> nodes,
                              const RigidBodyParameters &parameters)
     : body(body), parameters((parameters.validate(), parameters)), nodes(nodes.begin(), nodes.end()),
-      mass_(parameters.mass)
+      next_(inertia_of_both(body, checked(body, nodes), parameters))
 {
-  if (nodes.empty())
-    throw ConfigError("rigid body: it has no nodes; name a boundary or nodes of the mesh");
-  for (const unsigned int node : nodes)
-    for (unsigned int i = 0; i < 3; ++i)
-      if (node >= body.n_nodes() || body.constraint_of(3 * std::size_t(node) + i))
-        throw ConfigError("rigid body: node " + std::to_string(node) +
-                          (node < body.n_nodes()
-                               ? " is held by another condition; prescribe the rigid body first, "
-                                 "or leave the node out"
-                               : " does not exist; the mesh has " + std::to_string(body.n_nodes()) + " nodes"));
-  Column centre = parameters.mass * column(parameters.centre);
+  const Vector &centre = next_.inertia().centre;
+  own_centre = minus(parameters.centre, centre);
   for (const unsigned int node : nodes)
   {
-    const double m = body.mass()[3 * std::size_t(node)];
-    mass_ += m;
-    centre += m * column(body.node_position()[node]);
-  }
-  centre /= mass_;
-  next.centre = vector(centre);
-  own_centre = vector(column(parameters.centre) - centre);
-  Matrix sum = inertia_of(parameters.mass, column(parameters.centre) - centre);
-  for (int i = 0; i < 3; ++i)
-    sum[i][i] += parameters.inertia[i];
-  for (const unsigned int node : nodes)
-  {
-    const Column to_node = column(body.node_position()[node]) - centre;
-    arm.push_back(vector(to_node));
-    sum += inertia_of(body.mass()[3 * std::size_t(node)], to_node);
+    arm.push_back(minus(place_of(body, node), centre));
     const unsigned int alone[] = {node};
     for (unsigned int i = 0; i < 3; ++i)
       constraints.push_back(body.prescribe_velocity(alone, i));
   }
-  store(sum, inertia);
-  now = next;
+  body.make_rigid(nodes);
+  next_.guide = parameters.guide;
+  now = next_.motion();
   step_of_next = static_cast<double>(body.n_steps());
 }
 
@@ -138,7 +113,7 @@ void RigidBoundary::begin(const double dt)
   now = present();
   step_of_next = static_cast<double>(body.n_steps() + 1);
   gather_forces();
-  next = now;
+  next_.motion() = now;
 }
 
 void RigidBoundary::gather_forces()
@@ -165,75 +140,62 @@ void RigidBoundary::gather_forces()
 
 void RigidBoundary::advance(const double dt)
 {
-  const Matrix turned = rotation(dt * column(next.spin)) * matrix(now.rotation);
-  store(turned, next.rotation);
-  for (int i = 0; i < 3; ++i)
-    next.centre[i] += dt * next.velocity[i];
+  next_.drift(dt);
   // To where the rigid motion brings them, so that distances keep to rounding.
   for (std::size_t k = 0; k < nodes.size(); ++k)
   {
-    const Column target = column(next.centre) + turned * column(arm[k]);
+    const Vector target = next_.place_of(arm[k]), here = place_of(body, nodes[k]);
     for (std::size_t i = 0; i < 3; ++i)
-    {
-      const std::size_t dof = 3 * std::size_t(nodes[k]) + i;
-      const double here = body.node_position()[nodes[k]][i] + body.displacement()[dof];
-      body.set_velocity(constraints[3 * k + i], (target[i] - here) / dt);
-    }
+      body.set_velocity(constraints[3 * k + i], (target[i] - here[i]) / dt);
   }
 }
 
 void RigidBoundary::prescribe(const Vector &velocity, const Vector &angular_velocity, const double dt)
 {
   begin(dt);
-  next.velocity = velocity;
-  next.spin = angular_velocity;
-  const Matrix halfway = rotation(0.5 * dt * column(next.spin)) * matrix(now.rotation);
-  next.angular_momentum = vector(halfway * matrix(inertia) * transpose(halfway) * column(next.spin));
+  next_.prescribe(velocity, angular_velocity, dt);
   advance(dt);
 }
 
 void RigidBoundary::move(const Vector &force, const Vector &moment, const double dt)
 {
-  const Matrix at_start = matrix(inertia);
-  if (!(determinant(at_start) > 0))
-    throw ConfigError("rigid body: its inertia is singular; give it one, or nodes that are not on a line");
   begin(dt);
-  const double time = body.kick_time(dt);
-  const Matrix r = matrix(now.rotation);
-  const Column own_arm = r * column(own_centre);
-  const Column weight = parameters.mass * column(body.gravity());
-  const Column own_moment = dealii::cross_product_3d(own_arm, weight);
+  const Vector own_arm = minus(next_.place_of(own_centre), now.centre);
+  Vector weight, total_force, total_moment;
+  for (int i = 0; i < 3; ++i)
+    weight[i] = parameters.mass * body.gravity()[i];
+  const Vector own_moment = cross(own_arm, weight);
   for (int i = 0; i < 3; ++i)
   {
-    next.velocity[i] += time / mass_ * (force_[i] + weight[i] + force[i]);
-    next.angular_momentum[i] += time * (moment_[i] + own_moment[i] + moment[i]);
+    total_force[i] = force_[i] + weight[i] + force[i];
+    total_moment[i] = moment_[i] + own_moment[i] + moment[i];
   }
-  // The spin of the half step from the orientation of the half step: second order.
-  const auto spin_at = [&](const Matrix &orientation)
-  { return orientation * invert(at_start) * transpose(orientation) * column(next.angular_momentum); };
-  const Column first = spin_at(r);
-  next.spin = vector(spin_at(rotation(0.5 * dt * first) * r));
+  next_.kick(total_force, total_moment, body.kick_time(dt), dt);
   advance(dt);
 }
 
 double RigidBoundary::kinetic_energy() const
 {
-  const Matrix r = matrix(next.rotation);
-  const Column spin = column(next.spin);
-  const Column velocity = column(next.velocity) + dealii::cross_product_3d(spin, r * column(own_centre));
-  const Column in_body = transpose(r) * spin;
-  double energy = 0.5 * parameters.mass * velocity.norm_square();
+  const RigidMotion::Motion &motion = next_.motion();
+  const Vector velocity = next_.velocity_of(own_centre);
+  double energy = 0;
   for (int i = 0; i < 3; ++i)
-    energy += 0.5 * parameters.inertia[i] * in_body[i] * in_body[i];
+  {
+    double in_body = 0; // spin about the body's own axes
+    for (int j = 0; j < 3; ++j)
+      in_body += motion.rotation[j][i] * motion.spin[j];
+    energy += 0.5 * parameters.mass * velocity[i] * velocity[i] + 0.5 * parameters.inertia[i] * in_body * in_body;
+  }
   return energy;
 }
 
 std::vector<std::pair<std::string, std::span<double>>> RigidBoundary::state()
 {
+  using Motion = RigidMotion::Motion;
   static_assert(sizeof(Motion) % sizeof(double) == 0);
   constexpr std::size_t size = sizeof(Motion) / sizeof(double);
   return {{"rigid_motion", {reinterpret_cast<double *>(&now), size}},
-          {"rigid_motion_next", {reinterpret_cast<double *>(&next), size}},
+          {"rigid_motion_next", {reinterpret_cast<double *>(&next_.motion()), size}},
           {"rigid_step_of_next", {&step_of_next, 1}}};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe_dealii/conditions/rigid_motion.h"
 #include "fe_dealii/moving_body.h"
 
 #include <array>
@@ -15,8 +16,9 @@ namespace bergamo::fe
 struct RigidBodyParameters
 {
   double mass = 0;                 ///< >= 0 [kg]
-  std::array<double, 3> centre{};  ///< centre of mass at the start [m]
+  std::array<double, 3> centre{};  ///< centre of mass at the start, beside the nodes' present places [m]
   std::array<double, 3> inertia{}; ///< about the global axes through the centre, no products; >= 0 [kg m²]
+  RigidGuide guide{};              ///< motions that are not free
 
   /// Throws ConfigError.
   void validate() const;
@@ -24,7 +26,8 @@ struct RigidBodyParameters
 
 /// Nodes of a body that move as one rigid body: a footing, a pile's head, a plate. Either its velocities are
 /// prescribed, or it moves freely under its own weight, what the continuum and others exert on its nodes, and a force
-/// and moment of the user's. Nodes keep their distances to rounding at any rotation.
+/// and moment of the user's. Nodes keep their distances to rounding at any rotation, those that they have when it is
+/// set up. Elements whose nodes are all its own are rigid, see MovingBody::make_rigid().
 class RigidBoundary
 {
 public:
@@ -51,10 +54,16 @@ public:
   const Vector &moment() const { return moment_; }
 
   const Vector &centre() const { return present().centre; } ///< present; of the rigid body and the nodes together [m]
-  const Vector &velocity() const { return next.velocity; }  ///< of the centre, at half steps [m/s]
-  const Vector &angular_velocity() const { return next.spin; } ///< at half steps [rad/s]
-  double mass() const { return mass_; }                        ///< of the rigid body and the nodes together [kg]
-  double kinetic_energy() const;                               ///< without the nodes, at the last half step [J]
+  const Vector &velocity() const { return next_.motion().velocity; }     ///< of the centre, at half steps [m/s]
+  const Vector &angular_velocity() const { return next_.motion().spin; } ///< at half steps [rad/s]
+  double mass() const { return next_.inertia().mass; } ///< of the rigid body and the nodes together [kg]
+  double kinetic_energy() const;                       ///< without the nodes, at the last half step [J]
+  double angle() const { return next_.angle(); }       ///< by which it will have turned after the last call [rad]
+
+  /// Motions that are not free in move(); may be changed between two steps.
+  RigidGuide &guide() { return next_.guide; }
+  const Vector &guide_force() const { return next_.guide_force(); }   ///< in the last move() [N]
+  const Vector &guide_moment() const { return next_.guide_moment(); } ///< about the centre [N m]
 
   /// What a restart needs, as views.
   std::vector<std::pair<std::string, std::span<double>>> state();
@@ -70,21 +79,13 @@ private:
   std::vector<MovingBody::Constraint> constraints; // three a node
   std::vector<Vector> arm;                         // from the centre, at the start
   Vector own_centre{};                             // of the rigid body alone, from the centre, at the start
-  double mass_;
-  double inertia[3][3]; // of both together, at the start
   Vector force_{}, moment_{};
-
-  struct Motion // doubles only: it is the state
-  {
-    Vector centre, velocity{}, spin{}, angular_momentum{};
-    double rotation[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  };
-  Motion now;              // at the step of the last call
-  Motion next;             // after the step to come
+  RigidMotion::Motion now; // at the step of the last call
+  RigidMotion next_;       // after the step to come
   double step_of_next = 0; // number of the step that leads there
 
   /// The body's drift has brought the nodes to where the last call sent them, or not yet.
-  const Motion &present() const { return body.n_steps() < step_of_next ? now : next; }
+  const RigidMotion::Motion &present() const { return body.n_steps() < step_of_next ? now : next_.motion(); }
 };
 
 } // namespace bergamo::fe

@@ -5,10 +5,12 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
 
+#include <cctype>
 #include <cmath>
 #include <iostream>
 #include <numbers>
 #include <sstream>
+#include <vector>
 
 namespace bergamo::fe
 {
@@ -23,6 +25,39 @@ std::string text_of(const double constant)
   return text.str();
 }
 
+[[noreturn]] void refuse(const std::string &text, const std::string &reason)
+{
+  throw ConfigError("'" + text + "' is no function of the time; " + reason);
+}
+
+bool is_of_name(const char c)
+{
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+/// Refuses what the parser reads in another way than it is meant: it takes the last of several expressions with commas,
+/// assigns to t, and draws new random numbers at every call.
+void refuse_traps(const std::string &text)
+{
+  std::vector<bool> is_call; // of the brackets that are open
+  for (std::size_t k = 0; k < text.size(); ++k)
+  {
+    const char before = k > 0 ? text[k - 1] : ' ', after = k + 1 < text.size() ? text[k + 1] : ' ';
+    if (text[k] == '(')
+      is_call.push_back(is_of_name(before));
+    else if (text[k] == ')' && !is_call.empty())
+      is_call.pop_back();
+    else if (text[k] == ',' && (is_call.empty() || !is_call.back() || (std::isdigit(before) && std::isdigit(after))))
+      refuse(text, "write numbers with a point, as 0.5, and arguments with a space behind the comma, as min(t, 1)");
+    else if (text[k] == '=' && std::string("=<>!").find(before) == std::string::npos && after != '=')
+      refuse(text, "it assigns; compare with ==");
+  }
+  for (const std::string random : {"rand", "rand_seed"})
+    for (std::size_t k = text.find(random); k != std::string::npos; k = text.find(random, k + 1))
+      if ((k == 0 || !is_of_name(text[k - 1])) && !is_of_name((text + " ")[k + random.size()]))
+        refuse(text, random + "() differs from call to call; write an expression of t that does not");
+}
+
 } // namespace
 
 struct TimeFunction::Parser
@@ -32,6 +67,7 @@ struct TimeFunction::Parser
 
 TimeFunction::TimeFunction(const std::string &text) : text_(text), parser_(std::make_unique<Parser>())
 {
+  refuse_traps(text);
   // deal.II writes what its parser says to std::cerr beside the exception: one mistake, one message.
   struct Silence
   {
@@ -50,8 +86,7 @@ TimeFunction::TimeFunction(const std::string &text) : text_(text), parser_(std::
   }
   catch (const dealii::ExceptionBase &)
   {
-    throw ConfigError("'" + text + "' is no function of the time; write an expression of t in seconds, such as " +
-                      "-0.01*min(t, 1)");
+    refuse(text, "write an expression of t in seconds, such as -0.01*min(t, 1)");
   }
 }
 

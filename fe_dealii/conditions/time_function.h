@@ -11,7 +11,8 @@ namespace bergamo::fe
 class TimeFunction
 {
 public:
-  /// Throws ConfigError for a text that is no such expression.
+  /// Throws ConfigError for a text that is no such expression, and for what would be read in another way than it is
+  /// meant: a comma in a number, an assignment, a random number.
   explicit TimeFunction(const std::string &text);
   TimeFunction(double constant);
   TimeFunction(TimeFunction &&) noexcept;

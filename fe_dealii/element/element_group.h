@@ -2,6 +2,7 @@
 
 #include "fe_dealii/material/tensor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -42,6 +43,16 @@ public:
   }
   std::span<const unsigned int> nodes() const { return node; }
 
+  /// Whether an element moves as a rigid body: it has no forces then, its stress and energy stay, and it sets no stable
+  /// step. Elements of small strain would resist a rotation.
+  bool is_rigid(const std::size_t element) const { return !rigid.empty() && rigid[element] != 0; }
+  void make_rigid(const std::size_t element)
+  {
+    rigid.resize(size(), 0);
+    rigid[element] = 1;
+    std::fill_n(force(element), dofs_per_element(), 0.);
+  }
+
   /// Nodal forces of the elements as last computed, in the order of nodes(), three each [N].
   std::span<const double> forces() const { return force_of_dof; }
 
@@ -54,9 +65,20 @@ public:
   /// Lumped mass at the nodes of an element, all positive [kg].
   virtual void lumped_mass(std::size_t element, double *mass) const = 0;
 
+  /// What a body force acts on at the nodes of an element, ∫ N ρ dV with the share [kg]: work-conjugate to the
+  /// displacements on any mesh. The row sum of the consistent mass, which may be negative at nodes of a distorted
+  /// quadratic element; where the lumped mass is that sum, the same.
+  virtual void gravitational_mass(const std::size_t element, double *mass) const { lumped_mass(element, mass); }
+
   /// Elastic stiffness at a displacement, row-major [N/m]; of the stiffest point where it depends on the pressure. At
   /// large strain the tangent, with the part of the present stresses.
   virtual void stiffness(std::size_t element, const double *displacement, double *matrix) const = 0;
+
+  /// Factor of the law's moduli that stiffness() takes in the present stresses; 1 where they do not depend on them. Not
+  /// finite where these are not.
+  virtual double stiffness_factor(std::size_t) const { return 1; }
+  /// Whether stiffness() depends on the displacement.
+  virtual bool stiffens_with_displacement() const { return false; }
 
   /// Derivative by the displacement of the forces that compute_forces(displacement, before) would give, row-major
   /// [N/m]. Not symmetric where the flow is not associated.
@@ -68,9 +90,10 @@ public:
 
   virtual double volume(std::size_t element) const = 0; ///< in the reference configuration, whatever the share [m³]
   virtual ElementState state_of(std::size_t element, const double *displacement) const = 0;
-  /// At the last compute_forces() [J]; where the stiffness depends on the pressure, the elastic work since the start.
-  virtual double elastic_energy() const = 0;
+  virtual double elastic_energy() const = 0;    ///< at the last compute_forces() [J]
   virtual double dissipated_energy() const = 0; ///< by plastic flow since the start [J]
+  /// Elastic work since the start less the energy that it has stored, where the stiffness depends on the pressure [J].
+  virtual double stiffness_loss() const { return 0; }
 
   /// What changes from step to step and a restart needs, as views.
   virtual std::vector<std::pair<std::string, std::span<double>>> state() = 0;
@@ -99,6 +122,7 @@ private:
   int n_element_nodes;
   std::vector<unsigned int> node;
   std::vector<double> force_of_dof;
+  std::vector<char> rigid; // none where no element is
 };
 
 } // namespace bergamo::fe

@@ -23,7 +23,8 @@ enum class Dilatation
 struct Response
 {
   double energy = 0.;         ///< [J]
-  double smallest_ratio = 0.; ///< least det F at any point; <= 0 where the element has turned inside out
+  double smallest_ratio = 0.; ///< least det F at any point; <= 0 where the element has turned inside out. Points
+                              ///< without a number do not count: the forces have none then either
 };
 
 /// Deformation gradient at the points of a pack. @param u displacements, 3*node + component [m]

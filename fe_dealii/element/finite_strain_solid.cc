@@ -7,9 +7,9 @@ namespace bergamo::fe
 
 template <class Law, int n_nodes>
 FiniteStrainSolid<Law, n_nodes>::FiniteStrainSolid(const Law &law, std::vector<unsigned int> nodes,
-                                                   std::vector<Geometry> geometry, std::vector<double> mass_share)
+                                                   std::vector<Geometry> geometry, MassShares mass_shares)
     : ElementGroup(n_nodes, std::move(nodes)), law_(law), geometry_(std::move(geometry)),
-      mass_share_(std::move(mass_share)), energy_(geometry_.size(), 0.)
+      mass_shares_(std::move(mass_shares)), energy_(geometry_.size(), 0.)
 {
 }
 
@@ -20,6 +20,8 @@ std::optional<std::size_t> FiniteStrainSolid<Law, n_nodes>::compute_forces(const
 {
   for (std::size_t e = begin; e < end; ++e)
   {
+    if (is_rigid(e))
+      continue;
     double u[3 * n_nodes];
     gather(e, displacement, u);
     const finite_strain::Response response = finite_strain::internal_force(law_, geometry_[e], dilatation, u, force(e));
@@ -35,7 +37,15 @@ void FiniteStrainSolid<Law, n_nodes>::lumped_mass(const std::size_t element, dou
 {
   const double whole = law_.density() * volume(element);
   for (int node = 0; node < n_nodes; ++node)
-    mass[node] = whole * mass_share_[n_nodes * element + node];
+    mass[node] = whole * mass_shares_.lumped[n_nodes * element + node];
+}
+
+template <class Law, int n_nodes>
+void FiniteStrainSolid<Law, n_nodes>::gravitational_mass(const std::size_t element, double *mass) const
+{
+  const double whole = law_.density() * volume(element);
+  for (int node = 0; node < n_nodes; ++node)
+    mass[node] = whole * mass_shares_.row_sum[n_nodes * element + node];
 }
 
 template <class Law, int n_nodes>

@@ -21,14 +21,16 @@ public:
       n_nodes == 8 ? finite_strain::Dilatation::mean : finite_strain::Dilatation::point;
   using Geometry = SolidGeometry<n_nodes, n_packs>;
 
-  /// @param mass_share of each node in its element's mass, see lumped_mass(); as many as nodes
+  /// @param mass_shares of each node in its element; as many as nodes
   FiniteStrainSolid(const Law &law, std::vector<unsigned int> nodes, std::vector<Geometry> geometry,
-                    std::vector<double> mass_share);
+                    MassShares mass_shares);
 
   std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
                                             const double *before) override;
   void lumped_mass(std::size_t element, double *mass) const override;
+  void gravitational_mass(std::size_t element, double *mass) const override;
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
+  bool stiffens_with_displacement() const override { return true; }
   void tangent(const std::size_t element, const double *displacement, const double *, double *matrix) const override
   {
     stiffness(element, displacement, matrix);
@@ -43,7 +45,7 @@ public:
 private:
   Law law_;
   std::vector<Geometry> geometry_;
-  std::vector<double> mass_share_;
+  MassShares mass_shares_;
   std::vector<double> energy_; // of each element at the last compute_forces()
 };
 

@@ -79,6 +79,17 @@ inline void internal_force(const Geometry &geometry, const Points (&stress)[6], 
   }
 }
 
+/// Nodal forces [N] of what the mean stresses of the points have beyond that of the element: internal_force() plus
+/// these is ∫ ∇N · σ dV, in balance with whatever load the stress field is.
+inline void unevenness_force(const Geometry &geometry, const Points (&stress)[6], double *force)
+{
+  const Points mean = geometry.share_volume * (stress[0] + stress[1] + stress[2]) / 3.;
+  const Points uneven = mean - sum(mean) * geometry.volume_fraction;
+  for (int node = 0; node < n_nodes; ++node)
+    for (int i = 0; i < 3; ++i)
+      force[3 * node + i] = sum(uneven * geometry.gradient[i][node]);
+}
+
 /// Stiffness [N/m], row-major 24×24, share included. @param stress_of stress_of(strain, stress) at all points: linear
 template <class StressOf>
 void stiffness(const Geometry &geometry, const StressOf &stress_of, double *matrix)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,9 +16,11 @@ namespace
 // Upper bound on the greatest |λ| of a symmetric matrix A of n rows, which is overwritten. With T_m = tr A^m of even m,
 // (T_2m/T_m)^(1/m) <= |λ| <= T_m^(1/m): squaring A closes the bracket from both sides, where a power iteration would
 // come from below, the unsafe side, and may miss a mode. Compressed elements have negative λ, so the trace of A itself
-// bounds nothing.
+// bounds nothing. NaN for a matrix that is not finite.
 double largest_eigenvalue_bound(std::vector<double> &matrix, const std::size_t n)
 {
+  if (!std::all_of(matrix.begin(), matrix.end(), [](const double entry) { return std::isfinite(entry); }))
+    return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> square(n * n);
   double log_scale = 0; // the power of A is matrix * exp(log_scale)
   double upper = 0;
@@ -61,11 +64,13 @@ double largest_eigenvalue_bound(std::vector<double> &matrix, const std::size_t n
 
 double largest_eigenvalue(const ElementGroup &elements, const std::size_t element, const double *displacement)
 {
+  if (elements.is_rigid(element))
+    return 0;
   const std::size_t n = elements.dofs_per_element();
   std::vector<double> matrix(n * n), mass(elements.nodes_per_element());
   elements.stiffness(element, displacement, matrix.data());
   elements.lumped_mass(element, mass.data());
-  if (!(mass[0] > 0)) // no share in the continuum
+  if (mass[0] <= 0) // no share in the continuum
     return 0;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)

@@ -35,6 +35,8 @@ std::optional<std::size_t> MembraneElements::compute_forces(const std::size_t be
       {
         for (std::size_t e = begin; e < end; ++e)
         {
+          if (is_rigid(e))
+            continue;
           double u[n_dofs];
           gather(e, displacement, u);
           const membrane::Response response = membrane::internal_force(law, geometry_[e], u, force(e));

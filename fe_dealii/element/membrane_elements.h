@@ -43,6 +43,7 @@ public:
   void lumped_mass(std::size_t element, double *mass) const override;
   /// Of the present state: a flat membrane without stress has none across its plane, a compressed one less than none.
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
+  bool stiffens_with_displacement() const override { return true; }
   void tangent(const std::size_t element, const double *displacement, const double *, double *matrix) const override
   {
     stiffness(element, displacement, matrix);

@@ -1,6 +1,7 @@
 #include "fe_dealii/element/small_strain_elements.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace bergamo::fe
@@ -46,55 +47,40 @@ ElementState SmallStrainElements<Law>::state_of(const std::size_t element, const
       state.stress[i] += sum(fraction * history.stress[i]);
     state.plastic_strain += sum(fraction * history.plastic_strain);
   }
-  state.energy_density = energy_density(element);
+  for (int point = 0; point < points_per_pack * n_packs_; ++point)
+    state.energy_density +=
+        pack_volume(element, point / points_per_pack)[point % points_per_pack] / whole * stored_energy(element, point);
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
     state.yield_function = law_.yield_function(state.stress);
   return state;
 }
 
 template <class Law>
-bool SmallStrainElements<Law>::books_elastic_work() const
+double SmallStrainElements<Law>::stored_energy(const std::size_t element, const int point) const
 {
+  const Stress at_point = stress(element, point);
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
-    return law_.depends_on_pressure();
-  return false;
-}
-
-template <class Law>
-double SmallStrainElements<Law>::energy_density(const std::size_t element) const
-{
-  double energy = 0, counted = 0;
-  for (int pack = 0; pack < n_packs_; ++pack)
-    if (books_elastic_work())
-    {
-      energy += sum(history_[n_packs_ * element + pack].elastic_work);
-      counted += sum(pack_share_volume(element, pack));
-    }
-    else
-    {
-      for (int point = 0; point < points_per_pack; ++point)
-        energy +=
-            pack_volume(element, pack)[point] * elastic_energy_density(stress(element, points_per_pack * pack + point),
-                                                                       law_.bulk_modulus(), law_.shear_modulus());
-      counted += sum(pack_volume(element, pack));
-    }
-  return counted > 0 ? energy / counted : 0;
+    return law_.elastic_energy_density(mean_stress(at_point), second_invariant(at_point));
+  else
+    return elastic_energy_density(at_point, law_.bulk_modulus(), law_.shear_modulus());
 }
 
 template <class Law>
 double SmallStrainElements<Law>::elastic_energy() const
 {
   double energy = 0;
-  if (books_elastic_work())
-  {
-    for (const PointHistory &history : history_)
-      energy += sum(history.elastic_work);
-    return energy;
-  }
   for (std::size_t e = 0; e < size(); ++e)
     for (int point = 0; point < points_per_pack * n_packs_; ++point)
-      energy += pack_share_volume(e, point / points_per_pack)[point % points_per_pack] *
-                elastic_energy_density(stress(e, point), law_.bulk_modulus(), law_.shear_modulus());
+      energy += pack_share_volume(e, point / points_per_pack)[point % points_per_pack] * stored_energy(e, point);
+  return energy;
+}
+
+template <class Law>
+double SmallStrainElements<Law>::stiffness_loss() const
+{
+  double energy = 0;
+  for (const PointHistory &history : history_)
+    energy += sum(history.stiffness_loss);
   return energy;
 }
 
@@ -108,17 +94,22 @@ double SmallStrainElements<Law>::dissipated_energy() const
 }
 
 template <class Law>
-double SmallStrainElements<Law>::greatest_stiffness_factor(const std::size_t element) const
+double SmallStrainElements<Law>::stiffness_factor(const std::size_t element) const
 {
-  double greatest = 1;
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
     if (law_.depends_on_pressure())
     {
-      greatest = 0;
-      for (int point = 0; point < points_per_pack * n_packs_; ++point)
-        greatest = std::max(greatest, law_.stiffness_factor(mean_stress(stress(element, point))));
+      double least_trace = HUGE_VAL, checked = 0;
+      for (int pack = 0; pack < n_packs_; ++pack)
+      {
+        const Points(&stress)[6] = history_[n_packs_ * element + pack].stress;
+        const Points trace = stress[0] + stress[1] + stress[2];
+        least_trace = std::min(least_trace, math::least(trace));
+        checked += sum(trace);
+      }
+      return std::isfinite(checked) ? law_.stiffness_factor(least_trace / 3) : checked;
     }
-  return greatest;
+  return 1;
 }
 
 template <class Law>

@@ -14,9 +14,11 @@ class SmallStrainElements : public ElementGroup
 {
 public:
   ElementState state_of(std::size_t element, const double *displacement) const final;
-  double elastic_energy() const final;
+  double elastic_energy() const override;
   double dissipated_energy() const final;
-  std::vector<std::pair<std::string, std::span<double>>> state() final;
+  double stiffness_loss() const final;
+  double stiffness_factor(std::size_t element) const final;
+  std::vector<std::pair<std::string, std::span<double>>> state() override;
   double volume(std::size_t element) const final;
 
   const Law &law() const { return law_; }
@@ -44,13 +46,8 @@ protected:
     return &sector_[points_per_pack * (n_packs_ * element + pack)];
   }
 
-  /// Largest factor of the moduli at any point.
-  double greatest_stiffness_factor(std::size_t element) const;
-
 private:
-  /// No energy depends on the stress alone where the stiffness depends on the pressure: the points keep the work.
-  bool books_elastic_work() const;
-  double energy_density(std::size_t element) const; // [J/m³]
+  double stored_energy(std::size_t element, int point) const; // of the point's stress [J/m³]
 
   Law law_;
   int n_packs_;

@@ -1,5 +1,9 @@
 #include "fe_dealii/element/small_strain_hexahedra.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 namespace bergamo::fe
 {
 
@@ -10,6 +14,26 @@ SmallStrainHexahedra<Law>::SmallStrainHexahedra(const Law &law, std::vector<unsi
     : SmallStrainElements<Law>(law, hexahedron::n_nodes, std::move(nodes), std::move(start)),
       geometry_(std::move(geometry))
 {
+  find_start_force();
+}
+
+template <class Law>
+void SmallStrainHexahedra<Law>::find_start_force()
+{
+  constexpr double rounding = 1e-13;
+  start_force_.assign(hexahedron::n_dofs * this->size(), 0.);
+  bool is_even = true;
+  for (std::size_t e = 0; e < this->size(); ++e)
+  {
+    const Points(&stress)[6] = this->history(e, 0).stress;
+    const Points trace = stress[0] + stress[1] + stress[2];
+    const double low = math::least(trace), high = -math::least(-trace);
+    is_even &= high - low <= rounding * std::max(std::abs(low), std::abs(high));
+    hexahedron::unevenness_force(geometry_[e], stress, &start_force_[hexahedron::n_dofs * e]);
+  }
+  if (is_even)
+    start_force_.clear();
+  start_energy_.assign(start_force_.empty() ? 0 : this->size(), 0.);
 }
 
 template <class Law>
@@ -18,6 +42,8 @@ std::optional<std::size_t> SmallStrainHexahedra<Law>::compute_forces(const std::
 {
   for (std::size_t e = begin; e < end; ++e)
   {
+    if (this->is_rigid(e))
+      continue;
     double increment[hexahedron::n_dofs];
     this->gather_increment(e, displacement, before, increment);
     Points strain[6];
@@ -25,8 +51,40 @@ std::optional<std::size_t> SmallStrainHexahedra<Law>::compute_forces(const std::
     PointHistory &history = this->history(e, 0);
     update_stress(this->law(), geometry_[e].share_volume, strain, history, this->sectors(e, 0));
     hexahedron::internal_force(geometry_[e], history.stress, this->force(e));
+    if (!start_force_.empty())
+      add_start_force(e, displacement);
   }
   return std::nullopt;
+}
+
+template <class Law>
+void SmallStrainHexahedra<Law>::add_start_force(const std::size_t element, const double *displacement)
+{
+  double u[hexahedron::n_dofs];
+  this->gather(element, displacement, u);
+  const double *const start = &start_force_[hexahedron::n_dofs * element];
+  double *const force = this->force(element);
+  double energy = 0;
+  for (int dof = 0; dof < hexahedron::n_dofs; ++dof)
+  {
+    force[dof] += start[dof];
+    energy += start[dof] * u[dof];
+  }
+  start_energy_[element] = energy;
+}
+
+template <class Law>
+double SmallStrainHexahedra<Law>::elastic_energy() const
+{
+  return std::accumulate(start_energy_.begin(), start_energy_.end(), SmallStrainElements<Law>::elastic_energy());
+}
+
+template <class Law>
+std::vector<std::pair<std::string, std::span<double>>> SmallStrainHexahedra<Law>::state()
+{
+  auto views = SmallStrainElements<Law>::state();
+  views.push_back({"element_start_energy", start_energy_});
+  return views;
 }
 
 template <class Law>
@@ -42,7 +100,7 @@ void SmallStrainHexahedra<Law>::stiffness(const std::size_t element, const doubl
       geometry_[element],
       [&](const Points(&unit_strain)[6], Points(&stress)[6]) { elastic_stress(this->law(), unit_strain, stress); },
       matrix);
-  const double factor = this->greatest_stiffness_factor(element);
+  const double factor = this->stiffness_factor(element);
   for (int entry = 0; entry < hexahedron::n_dofs * hexahedron::n_dofs; ++entry)
     matrix[entry] *= factor;
 }
@@ -72,6 +130,7 @@ void SmallStrainHexahedra<Law>::set_share(const std::span<const double> nodal_sh
         share += hexahedron::shape_value(v, point) * nodal_share[this->nodes(e)[v]];
       geometry_[e].share_volume[point] = share * geometry_[e].volume[point];
     }
+  find_start_force();
 }
 
 template class SmallStrainHexahedra<LinearElastic>;

@@ -6,7 +6,9 @@
 namespace bergamo::fe
 {
 
-/// Trilinear hexahedra with a mean dilatation at small strain, see hexahedron.h.
+/// Trilinear hexahedra with a mean dilatation at small strain, see hexahedron.h. Stresses at the start count point by
+/// point: the mean dilatation would see their mean over the element alone, and ground at rest under its weight would be
+/// out of balance on a mesh that is no bricks. What that adds is a constant force.
 template <class Law>
 class SmallStrainHexahedra final : public SmallStrainElements<Law>
 {
@@ -21,6 +23,8 @@ public:
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
   void tangent(std::size_t element, const double *displacement, const double *before, double *matrix) const override;
   void set_share(std::span<const double> nodal_share) override;
+  double elastic_energy() const override;
+  std::vector<std::pair<std::string, std::span<double>>> state() override;
 
   const hexahedron::Geometry &geometry(const std::size_t element) const { return geometry_[element]; }
 
@@ -31,7 +35,13 @@ private:
     return geometry_[element].share_volume;
   }
 
+  /// From the stresses at the points, which are those at the start.
+  void find_start_force();
+  void add_start_force(std::size_t element, const double *displacement);
+
   std::vector<hexahedron::Geometry> geometry_;
+  std::vector<double> start_force_;  // unevenness_force() of the stresses at the start; none where they are even
+  std::vector<double> start_energy_; // of each element, its potential: start force times displacement [J]
 };
 
 extern template class SmallStrainHexahedra<LinearElastic>;

@@ -64,10 +64,10 @@ void add_stiffness(const Geometry &geometry, const int pack, const StressOf &str
 
 template <class Law>
 SmallStrainQuadratic<Law>::SmallStrainQuadratic(const Law &law, std::vector<unsigned int> nodes,
-                                                std::vector<Geometry> geometry, std::vector<double> mass_share,
+                                                std::vector<Geometry> geometry, MassShares mass_shares,
                                                 std::vector<PointHistory> start)
     : SmallStrainElements<Law>(law, n_nodes, std::move(nodes), std::move(start)), geometry_(std::move(geometry)),
-      mass_share_(std::move(mass_share))
+      mass_shares_(std::move(mass_shares))
 {
 }
 
@@ -77,6 +77,8 @@ std::optional<std::size_t> SmallStrainQuadratic<Law>::compute_forces(const std::
 {
   for (std::size_t e = begin; e < end; ++e)
   {
+    if (this->is_rigid(e))
+      continue;
     double increment[3 * n_nodes];
     this->gather_increment(e, displacement, before, increment);
     double *const force = this->force(e);
@@ -98,13 +100,21 @@ void SmallStrainQuadratic<Law>::lumped_mass(const std::size_t element, double *m
 {
   const double whole = this->law().density() * geometry_[element].whole_volume();
   for (int node = 0; node < n_nodes; ++node)
-    mass[node] = whole * mass_share_[n_nodes * element + node];
+    mass[node] = whole * mass_shares_.lumped[n_nodes * element + node];
+}
+
+template <class Law>
+void SmallStrainQuadratic<Law>::gravitational_mass(const std::size_t element, double *mass) const
+{
+  const double whole = this->law().density() * geometry_[element].whole_volume();
+  for (int node = 0; node < n_nodes; ++node)
+    mass[node] = whole * mass_shares_.row_sum[n_nodes * element + node];
 }
 
 template <class Law>
 void SmallStrainQuadratic<Law>::stiffness(const std::size_t element, const double *, double *matrix) const
 {
-  const double factor = this->greatest_stiffness_factor(element);
+  const double factor = this->stiffness_factor(element);
   std::fill(matrix, matrix + 9 * n_nodes * n_nodes, 0.);
   for (int pack = 0; pack < n_packs; ++pack)
     add_stiffness(

@@ -15,13 +15,14 @@ public:
   static constexpr int n_nodes = 27, n_packs = packs_of(n_nodes);
   using Geometry = SolidGeometry<n_nodes, n_packs>;
 
-  /// @param mass_share of each node in its element's mass; as many as nodes; @param start see SmallStrainElements
+  /// @param mass_shares of each node in its element; as many as nodes; @param start see SmallStrainElements
   SmallStrainQuadratic(const Law &law, std::vector<unsigned int> nodes, std::vector<Geometry> geometry,
-                       std::vector<double> mass_share, std::vector<PointHistory> start);
+                       MassShares mass_shares, std::vector<PointHistory> start);
 
   std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
                                             const double *before) override;
   void lumped_mass(std::size_t element, double *mass) const override;
+  void gravitational_mass(std::size_t element, double *mass) const override;
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
   void tangent(std::size_t element, const double *displacement, const double *before, double *matrix) const override;
   void set_share(std::span<const double> nodal_share) override;
@@ -37,7 +38,7 @@ private:
   }
 
   std::vector<Geometry> geometry_;
-  std::vector<double> mass_share_;
+  MassShares mass_shares_;
 };
 
 extern template class SmallStrainQuadratic<LinearElastic>;

@@ -121,10 +121,12 @@ struct Solids
 {
   using Geometry = SolidGeometry<n_nodes, packs_of(n_nodes)>;
   std::vector<Geometry> geometry;
-  std::vector<double> mass_share; ///< of each node in its element's mass
+  MassShares mass_shares;
 
-  /// Masses by the diagonal of the consistent matrix, scaled to the whole (Hinton, Rock, Zienkiewicz, Earthq. Eng.
-  /// Struct. Dyn. 4 (1976) 245-249): positive for any element, where the row sum is not; on bricks, Simpson's rule.
+  /// Inertia of 8 nodes by row sums: they are positive, keep the centre of mass, and gravity accelerates all nodes
+  /// alike. That of 27 by the diagonal of the consistent matrix, scaled to the whole (Hinton, Rock, Zienkiewicz,
+  /// Earthq. Eng. Struct. Dyn. 4 (1976) 245-249): positive for any element, where the row sum is not; on bricks,
+  /// Simpson's rule and the row sum.
   /// @param take take(values): called with the values of each cell
   template <class Take>
   Solids(const dealii::DoFHandler<3> &dof_handler, const Take &take)
@@ -141,7 +143,7 @@ private:
   void add(const dealii::FEValues<3> &values)
   {
     Geometry cell{};
-    std::array<double, n_nodes> diagonal{};
+    std::array<double, n_nodes> diagonal{}, row_sum{};
     for (unsigned int point = 0; point < values.n_quadrature_points; ++point)
     {
       const unsigned int pack = point / points_per_pack, lane = point % points_per_pack;
@@ -152,12 +154,19 @@ private:
           cell.gradient[pack][i][node][lane] = values.shape_grad(node, point)[i];
         const double value = values.shape_value(node, point);
         diagonal[node] += value * value * values.JxW(point);
+        row_sum[node] += value * values.JxW(point);
       }
     }
-    const double whole = std::accumulate(diagonal.begin(), diagonal.end(), 0.);
-    for (const double d : diagonal)
-      mass_share.push_back(d / whole);
+    add_shares(row_sum, mass_shares.row_sum);
+    add_shares(n_nodes == 8 ? row_sum : diagonal, mass_shares.lumped);
     geometry.push_back(cell);
+  }
+
+  static void add_shares(const std::array<double, n_nodes> &part, std::vector<double> &shares)
+  {
+    const double whole = std::accumulate(part.begin(), part.end(), 0.);
+    for (const double p : part)
+      shares.push_back(p / whole);
   }
 };
 
@@ -169,7 +178,7 @@ std::unique_ptr<ElementGroup> small_strain_quadratic(const dealii::DoFHandler<3>
   Solids<27> solids(dof_handler,
                     [&](const dealii::FEValues<3> &values) { add_start(values, law, initial_stress, start); });
   return std::make_unique<SmallStrainQuadratic<Law>>(law, cell_nodes(dof_handler), std::move(solids.geometry),
-                                                     std::move(solids.mass_share), std::move(start));
+                                                     std::move(solids.mass_shares), std::move(start));
 }
 
 template <class Law, int n_nodes>
@@ -177,7 +186,7 @@ std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_han
 {
   Solids<n_nodes> solids(dof_handler, [](const dealii::FEValues<3> &) {});
   return std::make_unique<FiniteStrainSolid<Law, n_nodes>>(law, cell_nodes(dof_handler), std::move(solids.geometry),
-                                                           std::move(solids.mass_share));
+                                                           std::move(solids.mass_shares));
 }
 
 struct Maker

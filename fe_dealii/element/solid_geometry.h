@@ -2,6 +2,8 @@
 
 #include "fe_dealii/element/points.h"
 
+#include <vector>
+
 namespace bergamo::fe
 {
 
@@ -22,6 +24,13 @@ struct SolidGeometry
       result += sum(v);
     return result;
   }
+};
+
+/// Parts of the nodes in the masses of their elements, one element after the other; those of an element add up to 1.
+struct MassShares
+{
+  std::vector<double> lumped;  ///< all positive: of the inertia
+  std::vector<double> row_sum; ///< ∫ N dV over the volume: of a body force; may be negative
 };
 
 /// Packs for as many Gauss points as nodes, which is full integration of a Lagrange element.

@@ -15,7 +15,7 @@ struct PointHistory
   Points stress[6];         ///< xx yy zz xy yz zx [Pa]
   Points plastic_strain;    ///< accumulated equivalent_strain() of the plastic increments [-]
   Points dissipated_energy; ///< accumulated plastic dissipation, share included [J]
-  Points elastic_work;      ///< accumulated stress work without it, share included, where the stiffness varies [J]
+  Points stiffness_loss;    ///< elastic work less what is stored, share included, where the stiffness varies [J]
 };
 
 /// Elastic stress of a strain at all points.
@@ -71,37 +71,55 @@ inline void flow_plastically(const MohrCoulomb &material, const Points &volume, 
     sector[first + point] = static_cast<Sector>(static_cast<int>(flow.sector[point]));
 }
 
+/// Mean stress and second invariant of the deviator.
+struct Invariants
+{
+  Points mean, j2;
+};
+inline Invariants invariants_of(const Points (&stress)[6])
+{
+  const Points mean = (stress[0] + stress[1] + stress[2]) / 3.;
+  const Points x = stress[0] - mean, y = stress[1] - mean, z = stress[2] - mean;
+  return {mean, (x * x + y * y + z * z) * 0.5 + stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5]};
+}
+
+/// What a step of changing stiffness takes of the elastic work beyond the energy that it stores: the work is
+/// ½(σ_old + σ_new) : Δε_e, with the elastic strain of the stresses' own change. @param softness of this increment
+inline Points stiffness_loss(const MohrCoulomb &material, const Invariants &before, const Invariants &after,
+                             const Points &softness)
+{
+  const Points work =
+      softness * ((after.mean * after.mean - before.mean * before.mean) * (0.5 / material.bulk_modulus()) +
+                  (after.j2 - before.j2) * (0.5 / material.shear_modulus()));
+  return work - (material.elastic_energy_density(after.mean, after.j2) -
+                 material.elastic_energy_density(before.mean, before.j2, softness));
+}
+
 /// Carries the stresses over a strain increment.
 /// @param weighted_volume times the share that the energies count with [m³]; @param sector one entry per point
 inline void update_stress(const MohrCoulomb &material, const Points &weighted_volume,
                           const Points (&strain_increment)[6], PointHistory &history, Sector *sector)
 {
-  const Points dissipated_before = history.dissipated_energy;
   Points trial[6], stiffness(1.), softness(1.);
+  Invariants before{};
   if (material.depends_on_pressure())
   {
-    stiffness = material.stiffness_factor(Points((history.stress[0] + history.stress[1] + history.stress[2]) / 3.));
+    before = invariants_of(history.stress);
+    stiffness = material.stiffness_factor(before.mean);
     softness = 1. / stiffness;
   }
   elastic_stress(material, strain_increment, trial);
   for (int i = 0; i < 6; ++i)
     trial[i] = history.stress[i] + stiffness * trial[i];
-  const Points mean = (trial[0] + trial[1] + trial[2]) / 3.;
-  const Points x = trial[0] - mean, y = trial[1] - mean, z = trial[2] - mean;
-  const Points j2 = (x * x + y * y + z * z) * 0.5 + trial[3] * trial[3] + trial[4] * trial[4] + trial[5] * trial[5];
-  const auto elastic = material.is_surely_elastic(mean, j2);
+  const Invariants of_trial = invariants_of(trial);
+  const auto elastic = material.is_surely_elastic(of_trial.mean, of_trial.j2);
   for (int point = 0; point < points_per_pack; ++point)
     sector[point] = Sector::elastic;
   if (math::any(!elastic))
     for (int first = 0; first < points_per_pack; first += pack_width)
       flow_plastically(material, weighted_volume, softness, first, trial, history, sector);
   if (material.depends_on_pressure())
-  {
-    Points work = dissipated_before - history.dissipated_energy;
-    for (int i = 0; i < 6; ++i)
-      work += weighted_volume * 0.5 * (history.stress[i] + trial[i]) * strain_increment[i];
-    history.elastic_work += work;
-  }
+    history.stiffness_loss += weighted_volume * stiffness_loss(material, before, invariants_of(trial), softness);
   for (int i = 0; i < 6; ++i)
     history.stress[i] = trial[i];
 }

@@ -22,15 +22,17 @@ struct EquilibriumParameters
 struct EquilibriumReport
 {
   std::vector<double> residual;         ///< out-of-balance over acting forces, at the start and after each iteration
+  int n_increments = 0;                 ///< in which the path was followed; 0 where there was nothing to do
   unsigned int n_linear_iterations = 0; ///< of all systems; 0 if they were solved directly
 };
 
 /// Finds the displacement at which a body rests under gravity, its present external_force() - a dead load - and the
-/// prescribed dofs, from its present stresses: Newton's method with the consistent tangent, damped by halving. One
-/// call is one increment of the path: where plastic flow depends on the path, load in several. Leaves the body at rest
+/// prescribed dofs, from its present stresses: Newton's method with the consistent tangent and a search for the least
+/// energy along its steps. One call is one increment of the path, or several where it has to be cut: where plastic flow
+/// depends on the path, load in several calls. Leaves the body at rest
 /// (ExplicitBody::rest()); keep the external forces as they are and the explicit run starts without motion.
-/// Throws ConfigError, and RunError with the place of the largest force out of balance where no equilibrium is
-/// found; the body is then as before.
+/// Throws ConfigError, also for rigid motions that nothing holds, by name, and RunError with the place of the largest
+/// force out of balance where no equilibrium is found; the body is then as before.
 EquilibriumReport find_equilibrium(ExplicitBody &body, const EquilibriumParameters &parameters = {});
 
 } // namespace bergamo::fe

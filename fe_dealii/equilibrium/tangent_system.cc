@@ -199,16 +199,15 @@ unsigned int TangentSystem::solve(const std::span<const double> residual, const 
           .solve(trilinos->matrix, trilinos->left, trilinos->right, trilinos->preconditioner);
     n_iterations = trilinos->is_direct ? 0 : control.last_step();
   }
-  catch (const dealii::ExceptionBase &error)
+  catch (const dealii::ExceptionBase &) // whose text is a stack trace
   {
-    throw RunError("static equilibrium: the linear system has no solution (" + std::string(error.what()) +
-                   "); hold the body against every rigid motion");
+    throw RunError("static equilibrium: the linear system has no solution, its stiffness is singular or close to it");
   }
   for (std::size_t dof = 0; dof < increment.size(); ++dof)
   {
     increment[dof] = body.constraint_of(dof) ? 0 : trilinos->left[dof];
     if (!std::isfinite(increment[dof]))
-      throw RunError("static equilibrium: the stiffness is singular; hold the body against every rigid motion");
+      throw RunError("static equilibrium: the linear system has no finite solution, its stiffness is singular");
   }
   return n_iterations;
 }

@@ -61,6 +61,12 @@ MohrCoulomb::MohrCoulomb(const MohrCoulombParameters &parameters) : parameters_(
   left_minor_ = minor / (plane_ + left_);
   tensile_slope_ = (1 - sin_friction_) / (1 + sin_friction_);
   tensile_start_ = 2 * cohesion_cos_ / (1 + sin_friction_);
+  if (depends_on_pressure())
+  {
+    const double least_pressure = least_pressure_share * parameters_.reference_pressure;
+    stored_below_ = least_pressure * least_pressure * (0.5 - 1 / (2 - parameters_.stiffness_exponent)) /
+                    stiffness_factor(-least_pressure);
+  }
 }
 
 double MohrCoulomb::yield_function(const Stress &stress) const

@@ -61,7 +61,7 @@ struct PrincipalReturn
 ///
 /// With a reference pressure both moduli grow as (p/p_r)^m of the pressure p at the start of an increment, from a
 /// hundredth of p_r on (Janbu 1963; m = 1/3 for Hertz contacts, about 0.5 for sands). Poisson's ratio stays. Such a law
-/// has no energy that depends on the stress alone: a closed loop of stress may gain or lose elastic work.
+/// has no potential: a closed loop of stress may gain or lose elastic work, see elastic_energy_density().
 /// All members are pure, free of allocation, exceptions and virtual calls.
 class MohrCoulomb
 {
@@ -95,6 +95,28 @@ public:
     const Real share = mean * (-1 / parameters_.reference_pressure);
     return math::library_pow(math::select(share > least_pressure_share, share, Real(least_pressure_share)),
                              parameters_.stiffness_exponent);
+  }
+
+  /// Energy that a stress stores [J/m³]: ∫ p dp/K over the pressure, and J2/2G with the present shear modulus. Where
+  /// the moduli depend on the pressure, a change of p under shear stress takes J2/2G dG/G of elastic work beside it, or
+  /// gives it. @param mean mean stress, tension positive; @param j2 see second_invariant(); both may be SIMD packs
+  template <class Real>
+  Real elastic_energy_density(const Real &mean, const Real &j2) const
+  {
+    if (!depends_on_pressure())
+      return mean * mean * (0.5 / bulk_) + j2 * (0.5 / shear_);
+    return elastic_energy_density(mean, j2, Real(1. / stiffness_factor(mean)));
+  }
+
+  /// The same with the inverse of stiffness_factor(), where that is known.
+  template <class Real>
+  Real elastic_energy_density(const Real &mean, const Real &j2, const Real &softness) const
+  {
+    const double power = 1 / (2 - parameters_.stiffness_exponent); // of ∫ p dp/K: p² times this over K
+    const double least_pressure = least_pressure_share * parameters_.reference_pressure;
+    const Real square = mean * mean * softness;
+    const Real volumetric = math::select(mean < -least_pressure, power * square + stored_below_, 0.5 * square);
+    return volumetric * (1 / bulk_) + j2 * softness * (0.5 / shear_);
   }
 
   /// Elastic stress of a strain.
@@ -160,6 +182,7 @@ private:
   // Stress changes per Φ on the main plane, of the middle and the most compressive component, and per Φ + Φ2 of the
   // most compressive one on the edges.
   double plane_middle_, plane_minor_, right_minor_, left_minor_;
+  double stored_below_ = 0;              // what the energy stored is beyond power p²/K, of the constant part [Pa²]
   double tensile_slope_, tensile_start_; // σ1 = slope σ3 + start where Φ = 0
 };
 

@@ -24,6 +24,11 @@ FOLDER = Path(__file__).resolve().parents[2] / "drivers" / "strip_footing"
 SMOKE = FOLDER / "smoke.prm"
 
 
+# Sand of Janbu's law, m = 1, five times as stiff under the footing in the end as at the start.
+STIFFENING = ["Ground/surcharge=10e3", "Continuum/friction angle=35", "Continuum/dilation angle=35",
+              "Continuum/cohesion=1e3", "Continuum/reference pressure=100e3", "Continuum/stiffness exponent=1"]
+
+
 class Case(unittest.TestCase):
     def setUp(self):
         self.tmp = Path(tempfile.mkdtemp())
@@ -74,6 +79,32 @@ class Results(Case):
         self.assertTrue(0 < deviations[1] < 0.14, deviations)
         self.assertLess(deviations[1], 0.8 * deviations[0])
 
+    def test_flow_that_is_not_associated(self):
+        """Compared with Davis' reduced strength: at 30 and 0 degrees tan phi and c times cos 30. Its history wanders."""
+        figures = self.figures("davis", ["Continuum/friction angle=30", "Continuum/dilation angle=0",
+                                         "Ground/elements under half the footing=4", "Footing/loading time=3",
+                                         "Footing/settlement=0.06"], file=FOLDER / "frictional.prm")
+        self.assertAlmostEqual(figures["limit_pressure_Pa"], 226.3e3, delta=100)
+        self.assertAlmostEqual(figures["limit_pressure_associated_Pa"], 334.7e3, delta=100)
+        self.assertLess(figures["bearing_pressure_lowest_Pa"], figures["bearing_pressure_Pa"])
+        self.assertGreater(figures["bearing_pressure_highest_Pa"], figures["bearing_pressure_Pa"])
+        # This mesh gives 14 % too much with associated flow, whose limit is 1.48 times as high.
+        self.assertTrue(0.95 < figures["bearing_over_limit"] < 1.2, figures)
+
+    def test_stiffness_by_pressure(self):
+        """Ground whose stiffness grows with the pressure: the step follows, so its share is of no account (the step of
+        the start would give a tenth of the pressure), and what the law has no potential for is seen."""
+        bearing = []
+        for share in (0.9, 0.3):
+            figures = self.figures(f"share_{share}", [*STIFFENING, f"Output/step share={share}"])
+            bearing.append(figures["bearing_pressure_Pa"])
+            self.assertLess(figures["time_step_s"], 1.001 * share * figures["stable_time_step_s"])
+            self.assertLess(figures["energy_residual"], 1e-11)
+            self.assertTrue(0 < figures["stiffness_loss_over_footing_work"] < 0.5, figures)
+            self.assertTrue(0 < figures["kinetic_over_elastic_energy"] < 0.01, figures)
+        self.assertAlmostEqual(bearing[0] / bearing[1], 1, delta=0.01)
+        self.assertGreater(bearing[0], 100e3)
+
     def test_ground_at_rest(self):
         """With weight and K0 the ground starts as it lies, and the footing's pressure at first is the surcharge."""
         figures = self.figures("rest", ["Ground/gravity=9.81", "Ground/surcharge=5e3", "Ground/earth pressure at rest=0.8",
@@ -87,22 +118,35 @@ class Results(Case):
         self.assertEqual(one["bearing_pressure_Pa"], two["bearing_pressure_Pa"])
 
 
+    def test_plots(self):
+        """Linear and quadratic elements can be drawn."""
+        for degree in (1, 2):
+            out = self.tmp / f"degree_{degree}"
+            command = self.command(out, [f"Ground/element degree={degree}", "Footing/loading time=0.05",
+                                         "Footing/settlement=1e-4"])
+            command.remove("--no-plots")
+            result = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertTrue((out / "plots" / "strip_footing.png").exists(), result.stderr)
+
+
 class Restart(Case):
     def test_kill(self):
-        """Killed, and stopped by Ctrl-C: what it gives in the end is the same to the last bit."""
-        self.figures("whole")
+        """Killed, and stopped by Ctrl-C: what it gives in the end is the same to the last bit, the step that follows the
+        stiffness included."""
+        self.figures("whole", STIFFENING)
         parts = self.tmp / "parts"
         options = SNAPSHOTS_BY_STEPS
         for rows, send in ((10, signal.SIGKILL), (20, signal.SIGINT)):
             has_snapshot = renewal(parts / "snapshot.h5")
             stop_when(lambda: has_snapshot() and n_rows(parts / "history.csv") > rows,
-                      self.command(parts, (), *options), send)
+                      self.command(parts, STIFFENING, *options), send)
             options = [*SNAPSHOTS_BY_STEPS, "--restart"]
-        result = self.run_driver(parts, (), *options)
+        result = self.run_driver(parts, STIFFENING, *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual((parts / "history.csv").read_text(), (self.tmp / "whole" / "history.csv").read_text())
         summaries = [json.loads((self.tmp / name / "summary.json").read_text()) for name in ("whole", "parts")]
-        for name in ("bearing_pressure_Pa", "energy_residual"):
+        for name in ("bearing_pressure_Pa", "energy_residual", "stable_time_step_s", "time_step_s"):
             self.assertEqual(summaries[0][name], summaries[1][name])
 
 

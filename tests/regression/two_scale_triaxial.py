@@ -106,6 +106,19 @@ class Results(Case):
                                    delta=0.003 * bulk_modulus * 0.002)
 
 
+    def test_continuum_that_outgrows_its_step(self):
+        """Its stiffness grows with the pressure until the given step is no longer stable: one message, no results."""
+        out = self.tmp / "run"
+        options = ["Model/kind=continuum", "Continuum/reference pressure=1e3", "Continuum/stiffness exponent=1",
+                   "Loading/time step=1e-6"]
+        result = self.run_driver(out, *[x for o in options for x in ("--set", o)])
+        self.assertEqual(result.returncode, 1, result.stderr)
+        for words in ("continuum: element ", "at time ", "become so stiff", "choose a smaller time step"):
+            self.assertIn(words, result.stderr)
+        self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
+        self.assertFalse((out / "summary.json").exists())
+
+
 class Restart(Case):
     def test_killed_run_goes_on_with_the_same_bits(self):
         """kill -9 in the loading, then --restart on another number of threads: the files are those of a run in one go."""

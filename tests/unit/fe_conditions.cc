@@ -53,6 +53,18 @@ TEST_CASE("functions of the time are read from their text", "[fe]")
   CHECK_THROWS_WITH(TimeFunction("1/(t-1)")(1.), Contains("t = 1 s") && Contains("stays finite"));
 }
 
+TEST_CASE("functions of the time that would be read in another way than they are meant are refused", "[fe]")
+{
+  for (const char *text : {"0,5*t", "(0,5)*t", "t*(1,5)", "1, t", "min(0,5*t, 1)"})
+    CHECK_THROWS_WITH(TimeFunction(text), Contains(std::string("'") + text + "'") && Contains("with a point"));
+  for (const char *text : {"rand()", "0.1*rand()*t", "rand_seed(7)", "rand ()"})
+    CHECK_THROWS_WITH(TimeFunction(text), Contains("differs from call to call"));
+  CHECK_THROWS_WITH(TimeFunction("t=5"), Contains("assigns"));
+  CHECK(TimeFunction("if(t<=1, 2, 3)")(1) == 2);
+  CHECK(TimeFunction("if((t==1) || (t!=1), min(t, 0.5), 3)")(1) == 0.5);
+  CHECK(TimeFunction("max(min(2*(t+1), 7), sin(t),1)")(1) == 4);
+}
+
 TEST_CASE("boundary conditions are read from their text", "[fe]")
 {
   const BoundaryCondition lid = parse_condition("5 displacement z -0.01*min(t, 1)");
@@ -64,6 +76,9 @@ TEST_CASE("boundary conditions are read from their text", "[fe]")
   CHECK(gas.kind == ConditionKind::pressure);
   CHECK(gas.value(1) == 100001);
   CHECK_THROWS_WITH(parse_condition("top velocity x 0"), Contains("number of a boundary"));
+  CHECK_THROWS_WITH(parse_condition("4294967301 velocity x 0"), Contains("4294967301 is no number of a boundary"));
+  CHECK_THROWS_WITH(parse_condition("4294967295 velocity x 0"), Contains("no number of a boundary"));
+  CHECK(parse_condition("4294967294 velocity x 0").boundary_id == 4294967294);
   CHECK_THROWS_WITH(parse_condition("1 speed x 0"), Contains("'speed'") && Contains("velocity"));
   CHECK_THROWS_WITH(parse_condition("1 traction w 0"), Contains("'w'"));
   CHECK_THROWS_WITH(parse_condition("1 traction x"), Contains("missing"));
@@ -107,6 +122,36 @@ TEST_CASE("boundaries move and are loaded as their functions say", "[fe]")
   std::vector<BoundaryCondition> wrong;
   wrong.push_back(parse_condition("9 pressure 1"));
   CHECK_THROWS_WITH(BoundaryConditions(body, std::move(wrong)), Contains("no boundary 9"));
+}
+
+TEST_CASE("motions that would have no effect, or another one, are refused by name", "[fe]")
+{
+  const auto refusal = [](const std::vector<const char *> &texts) -> std::string
+  {
+    ExplicitBody body = block({1, 1, 1});
+    std::vector<BoundaryCondition> list;
+    for (const char *text : texts)
+      list.push_back(parse_condition(text));
+    try
+    {
+      BoundaryConditions(body, std::move(list));
+    }
+    catch (const bergamo::ConfigError &error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(refusal({"5 displacement z -0.01"}),
+             Contains("'5 displacement z -0.01'") && Contains("begins with -0.01"));
+  CHECK_THAT(refusal({"5 displacement z cos(t)"}), Contains("begins with 1 m"));
+  CHECK(refusal({"5 displacement z 1-cos(t)"}).empty());
+  CHECK_THAT(refusal({"5 velocity z 1", "4 velocity z 0", "5 displacement z t"}),
+             Contains("'5 displacement z t'") && Contains("has '5 velocity z 1' along the same axis"));
+  // One element: its sides hold all nodes of the bottom along x.
+  CHECK_THAT(refusal({"0 velocity x 0", "1 velocity x 0", "4 velocity x 1"}),
+             Contains("'4 velocity x 1'") && Contains("hold all nodes"));
+  CHECK(refusal({"0 velocity x 0", "4 velocity x 1", "4 velocity y 1", "5 traction z 1", "5 traction z 2"}).empty());
 }
 
 TEST_CASE("a rigid boundary follows its prescribed motion and keeps its distances at any rotation", "[fe]")

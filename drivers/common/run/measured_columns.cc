@@ -54,6 +54,7 @@ std::vector<Column> columns_of(const coupling::ModelEnergy &energy)
           {"energy_friction_loss_J", [&energy] { return energy.friction_loss; }},
           {"energy_viscous_loss_J", [&energy] { return energy.viscous_loss; }},
           {"energy_plastic_loss_J", [&energy] { return energy.plastic_loss; }},
+          {"energy_stiffness_loss_J", [&energy] { return energy.stiffness_loss; }},
           {"energy_wall_work_J", [&energy] { return energy.wall_work; }},
           {"energy_gravity_work_J", [&energy] { return energy.gravity_work; }},
           {"energy_curvature_work_J", [&energy] { return energy.curvature_work; }},

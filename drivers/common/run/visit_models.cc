@@ -20,4 +20,10 @@ void visit_body(StateVisitor &visit, fe::MovingBody &body)
     visit("continuum/" + name, values);
 }
 
+void visit_steps(StateVisitor &visit, fe::StepControl &steps)
+{
+  for (const auto &[name, values] : steps.state())
+    visit("continuum/steps/" + name, values);
+}
+
 } // namespace bergamo::driver

@@ -3,6 +3,7 @@
 #include "dem/simulation/simulation.h"
 #include "drivers/common/run/state_visitor.h"
 #include "fe_dealii/moving_body.h"
+#include "fe_dealii/step_control.h"
 
 #include <memory>
 
@@ -17,5 +18,8 @@ std::unique_ptr<dem::Simulation> visit_grains(StateVisitor &visit, const dem::Si
 
 /// All that changes of a body from step to step. @param body set up as the one that was written
 void visit_body(StateVisitor &visit, fe::MovingBody &body);
+
+/// What the time step of a body follows.
+void visit_steps(StateVisitor &visit, fe::StepControl &steps);
 
 } // namespace bergamo::driver

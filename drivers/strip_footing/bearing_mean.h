@@ -1,0 +1,40 @@
+#pragma once
+
+#include "drivers/common/run/state_visitor.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace bergamo::driver
+{
+
+/// Mean of the footing's pressure over the time in which the ground flows, and how far it wanders.
+class BearingMean
+{
+public:
+  void add(const double pressure, const double time_step) // [Pa], [s]
+  {
+    impulse_ += pressure * time_step;
+    time_ += time_step;
+    lowest_ = std::min(lowest_, pressure);
+    highest_ = std::max(highest_, pressure);
+  }
+
+  double mean() const { return impulse_ / time_; } ///< [Pa]
+  double lowest() const { return lowest_; }        ///< [Pa]
+  double highest() const { return highest_; }      ///< [Pa]
+
+  void visit(StateVisitor &visit)
+  {
+    visit("bearing/impulse", impulse_);
+    visit("bearing/time", time_);
+    visit("bearing/lowest", lowest_);
+    visit("bearing/highest", highest_);
+  }
+
+private:
+  double impulse_ = 0, time_ = 0; // [Pa s, s]
+  double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
+};
+
+} // namespace bergamo::driver
