@@ -72,7 +72,8 @@ void FootingRun::visit(StateVisitor &visit)
 
 int FootingRun::go()
 {
-  steps_over({"Footing/loading time", parameters.loading_time}, {"Output/step share", model.time_step()}); // or refused
+  const double first_step = parameters.step_share * model.steps().stable().time_step;
+  steps_over({"Footing/loading time", parameters.loading_time}, {"Output/step share", first_step}); // or refused
   run.open();
   History history = run.history(table);
   const double end = parameters.loading_time;

@@ -66,7 +66,7 @@ void FootingParameters::validate() const
     reject("the ground would have ", elements_along(ground_width), " x ", elements_along(ground_depth),
            " elements, more than can be numbered; choose a smaller Ground/width or Ground/depth, or fewer "
            "Ground/elements under half the footing");
-  if (!(limit_pressure() > 0))
+  if (!(limit_pressure().davis > 0))
     reject("the ground bears no footing: Continuum/cohesion is ", continuum.cohesion, ", Ground/surcharge ", surcharge,
            " and Ground/gravity ", gravity, "; one of them must be positive");
   if (settlement > 0.2 * width)
