@@ -26,7 +26,8 @@ struct SolidCase
   int nodes_per_element() const { return degree == 1 ? 8 : 27; } ///< and as many quadrature points
   bool is_of_small_strain() const
   {
-    return std::holds_alternative<fe::LinearElastic>(material) || std::holds_alternative<fe::MohrCoulomb>(material);
+    return std::holds_alternative<fe::LinearElastic>(material) || std::holds_alternative<fe::MohrCoulomb>(material) ||
+           std::holds_alternative<fe::HypoplasticSand>(material);
   }
 };
 

@@ -34,6 +34,9 @@ struct StressOfPoint
     return 42. + flowing_share * (principal_dyads + 33. + 26. + 68.) + (law.depends_on_pressure() ? 36. + power : 0.);
   }
 
+  /// One substep: four times the response with its three powers, and the rate; sums and error of the substep.
+  double operator()(const fe::HypoplasticSand &) const { return 4. * (150. + 3. * power + exponential + 40.) + 150.; }
+
   /// 28 for the stress, 15 + 5 for tr C and the energy.
   double operator()(const fe::NeoHooke &) const { return 48. + logarithm; }
 

@@ -57,9 +57,9 @@ struct Increments
   Increments(const Law &of_points, ElementGroup &elements) : law(of_points)
   {
     const std::span<const double> values = elements.state().front().second;
-    history.resize(values.size() * sizeof(double) / sizeof(PointHistory));
+    history.resize(values.size() * sizeof(double) / sizeof(history[0]));
     std::copy(values.begin(), values.end(), reinterpret_cast<double *>(history.data()));
-    sector.resize(points_per_pack * history.size());
+    report.resize(points_per_pack * history.size());
   }
 
   void operator()(const Tensor3<Points> &strain, const Points &volume, const std::size_t pack)
@@ -68,12 +68,12 @@ struct Increments
     const Points components[6] = {strain[0][0] - 1.,           strain[1][1] - 1.,
                                   strain[2][2] - 1.,           strain[0][1] + strain[1][0],
                                   strain[1][2] + strain[2][1], strain[2][0] + strain[0][2]};
-    update_stress(law, volume, components, history[pack], &sector[points_per_pack * pack]);
+    update_stress(law, volume, components, history[pack], &report[points_per_pack * pack]);
   }
 
   Law law;
-  std::vector<PointHistory> history;
-  std::vector<Sector> sector;
+  std::vector<typename KeptAtPoints<Law>::History> history;
+  std::vector<typename KeptAtPoints<Law>::Report> report;
 };
 
 /// The law at large strain: nothing is remembered, the stresses of a block are written to one place.
@@ -127,7 +127,8 @@ double time_law_at(Law &&law, const dealii::DoFHandler<3> &dof_handler, const El
 }
 
 template <class Law>
-using LawOfPoints = std::conditional_t<std::is_same_v<Law, LinearElastic> || std::is_same_v<Law, MohrCoulomb>,
+using LawOfPoints = std::conditional_t<std::is_same_v<Law, LinearElastic> || std::is_same_v<Law, MohrCoulomb> ||
+                                           std::is_same_v<Law, HypoplasticSand>,
                                        Increments<Law>, Gradients<Law>>;
 
 } // namespace

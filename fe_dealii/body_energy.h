@@ -15,6 +15,8 @@ struct BodyEnergy
 {
   double kinetic = 0;
   double elastic = 0; ///< that the present stresses store, initial stress included
+  /// By plastic flow. A law that stores no energy, hypoplastic sand, has all work of its stresses here, which unloading
+  /// lowers.
   double plastic_dissipation = 0;
   double viscous_dissipation = 0; ///< by mass-proportional damping
   /// Elastic work less what it has stored, where the stiffness depends on the pressure: such a law has no potential.

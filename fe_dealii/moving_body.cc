@@ -156,7 +156,7 @@ void MovingBody::compute_internal_force()
                     }
                   });
   if (const std::vector<std::size_t> all = inverted.all(); !all.empty())
-    report_inversion(all.front());
+    report_failure(all.front());
   if (!endless.all().empty())
     report_endless_forces();
   progress_.has_forces = 1;

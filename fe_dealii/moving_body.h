@@ -178,7 +178,7 @@ protected:
 
 private:
   void scale_mass();
-  [[noreturn]] void report_inversion(std::size_t element) const;
+  [[noreturn]] void report_failure(std::size_t element) const;
   [[noreturn]] void report_endless_forces() const;
   [[noreturn]] void report_endless_motion() const;
 

@@ -50,10 +50,9 @@ std::string MovingBody::describe(const std::size_t element) const
   return text.str();
 }
 
-void MovingBody::report_inversion(const std::size_t element) const
+void MovingBody::report_failure(const std::size_t element) const
 {
-  throw RunError(describe(element) + " collapsed or turned inside out; choose a smaller time step, a finer mesh there "
-                                     "or a smaller load");
+  throw RunError(describe(element) + " " + elements_->failure(element));
 }
 
 void MovingBody::report_endless_forces() const

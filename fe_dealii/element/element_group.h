@@ -58,9 +58,15 @@ public:
 
   /// Computes the forces of the elements from begin to end. Blocks may run at the same time.
   /// @param before displacement at the last call
-  /// @return the first element that has collapsed or turned inside out
+  /// @return the first element that cannot go on, see failure()
   virtual std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
                                                     const double *before) = 0;
+
+  /// What an element is in that compute_forces() has named, and the remedy: the rest of a sentence "element E has".
+  virtual std::string failure(std::size_t) const
+  {
+    return "collapsed or turned inside out; choose a smaller time step, a finer mesh there or a smaller load";
+  }
 
   /// Lumped mass at the nodes of an element, all positive [kg].
   virtual void lumped_mass(std::size_t element, double *mass) const = 0;
@@ -90,8 +96,9 @@ public:
 
   virtual double volume(std::size_t element) const = 0; ///< in the reference configuration, whatever the share [m³]
   virtual ElementState state_of(std::size_t element, const double *displacement) const = 0;
-  virtual double elastic_energy() const = 0;    ///< at the last compute_forces() [J]
-  virtual double dissipated_energy() const = 0; ///< by plastic flow since the start [J]
+  virtual double elastic_energy() const = 0; ///< at the last compute_forces() [J]
+  /// By plastic flow since the start; all work of the stresses where a law stores no energy [J].
+  virtual double dissipated_energy() const = 0;
   /// Elastic work since the start less the energy that it has stored, where the stiffness depends on the pressure [J].
   virtual double stiffness_loss() const { return 0; }
 

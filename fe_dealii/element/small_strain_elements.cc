@@ -9,9 +9,9 @@ namespace bergamo::fe
 
 template <class Law>
 SmallStrainElements<Law>::SmallStrainElements(const Law &law, const int nodes_per_element,
-                                              std::vector<unsigned int> nodes, std::vector<PointHistory> start)
+                                              std::vector<unsigned int> nodes, std::vector<History> start)
     : ElementGroup(nodes_per_element, std::move(nodes)), law_(law), n_packs_(start.size() / size()),
-      history_(std::move(start)), sector_(points_per_pack * history_.size(), Sector::elastic)
+      history_(std::move(start)), report_(points_per_pack * history_.size(), Report{})
 {
 }
 
@@ -27,7 +27,7 @@ double SmallStrainElements<Law>::volume(const std::size_t element) const
 template <class Law>
 Stress SmallStrainElements<Law>::stress(const std::size_t element, const int point) const
 {
-  const PointHistory &pack = history_[n_packs_ * element + point / points_per_pack];
+  const History &pack = history_[n_packs_ * element + point / points_per_pack];
   Stress result;
   for (int i = 0; i < 6; ++i)
     result[i] = pack.stress[i][point % points_per_pack];
@@ -41,7 +41,7 @@ ElementState SmallStrainElements<Law>::state_of(const std::size_t element, const
   const double whole = volume(element);
   for (int pack = 0; pack < n_packs_; ++pack)
   {
-    const PointHistory &history = history_[n_packs_ * element + pack];
+    const History &history = history_[n_packs_ * element + pack];
     const Points fraction = pack_volume(element, pack) / whole;
     for (int i = 0; i < 6; ++i)
       state.stress[i] += sum(fraction * history.stress[i]);
@@ -61,6 +61,8 @@ double SmallStrainElements<Law>::stored_energy(const std::size_t element, const 
   const Stress at_point = stress(element, point);
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
     return law_.elastic_energy_density(mean_stress(at_point), second_invariant(at_point));
+  else if constexpr (std::is_same_v<Law, HypoplasticSand>)
+    return 0;
   else
     return elastic_energy_density(at_point, law_.bulk_modulus(), law_.shear_modulus());
 }
@@ -79,7 +81,7 @@ template <class Law>
 double SmallStrainElements<Law>::stiffness_loss() const
 {
   double energy = 0;
-  for (const PointHistory &history : history_)
+  for (const History &history : history_)
     energy += sum(history.stiffness_loss);
   return energy;
 }
@@ -88,7 +90,7 @@ template <class Law>
 double SmallStrainElements<Law>::dissipated_energy() const
 {
   double energy = 0;
-  for (const PointHistory &history : history_)
+  for (const History &history : history_)
     energy += sum(history.dissipated_energy);
   return energy;
 }
@@ -109,6 +111,18 @@ double SmallStrainElements<Law>::stiffness_factor(const std::size_t element) con
       }
       return std::isfinite(checked) ? law_.stiffness_factor(least_trace / 3) : checked;
     }
+  if constexpr (std::is_same_v<Law, HypoplasticSand>)
+  {
+    double greatest = 0, checked = 0;
+    for (int point = 0; point < points_per_pack * n_packs_; ++point)
+    {
+      const double factor =
+          law_.stiffness_factor(sand_state(point_history(element, point / points_per_pack), point % points_per_pack));
+      greatest = std::max(greatest, factor);
+      checked += factor;
+    }
+    return std::isfinite(checked) ? greatest : checked;
+  }
   return 1;
 }
 
@@ -121,7 +135,13 @@ void SmallStrainElements<Law>::tangent_moduli(const std::size_t element, const i
     Strain increment;
     for (int i = 0; i < 6; ++i)
       increment[i] = strain_increment[i][point];
-    const Moduli at_point = law_.tangent(stress(element, points_per_pack * pack + point), increment);
+    const Moduli at_point = [&]
+    {
+      if constexpr (std::is_same_v<Law, HypoplasticSand>)
+        return law_.tangent(sand_state(point_history(element, pack), point), increment);
+      else
+        return law_.tangent(stress(element, points_per_pack * pack + point), increment);
+    }();
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j)
         moduli[i][j][point] = at_point[i][j];
@@ -131,12 +151,23 @@ void SmallStrainElements<Law>::tangent_moduli(const std::size_t element, const i
 template <class Law>
 std::vector<std::pair<std::string, std::span<double>>> SmallStrainElements<Law>::state()
 {
-  static_assert(sizeof(PointHistory) % sizeof(double) == 0);
+  static_assert(sizeof(History) % sizeof(double) == 0);
   return {{"element_history",
-           {reinterpret_cast<double *>(history_.data()), history_.size() * sizeof(PointHistory) / sizeof(double)}}};
+           {reinterpret_cast<double *>(history_.data()), history_.size() * sizeof(History) / sizeof(double)}}};
+}
+
+template <class Law>
+std::string SmallStrainElements<Law>::failure(const std::size_t element) const
+{
+  if constexpr (std::is_same_v<Law, HypoplasticSand>)
+    for (int point = 0; point < points_per_pack * n_packs_; ++point)
+      if (const Report report = report_[points_per_pack * n_packs_ * element + point]; report != Report::done)
+        return explain(report, sand_state(point_history(element, point / points_per_pack), point % points_per_pack));
+  return ElementGroup::failure(element);
 }
 
 template class SmallStrainElements<LinearElastic>;
 template class SmallStrainElements<MohrCoulomb>;
+template class SmallStrainElements<HypoplasticSand>;
 
 } // namespace bergamo::fe

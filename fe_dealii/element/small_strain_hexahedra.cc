@@ -10,7 +10,7 @@ namespace bergamo::fe
 template <class Law>
 SmallStrainHexahedra<Law>::SmallStrainHexahedra(const Law &law, std::vector<unsigned int> nodes,
                                                 std::vector<hexahedron::Geometry> geometry,
-                                                std::vector<PointHistory> start)
+                                                std::vector<typename SmallStrainElements<Law>::History> start)
     : SmallStrainElements<Law>(law, hexahedron::n_nodes, std::move(nodes), std::move(start)),
       geometry_(std::move(geometry))
 {
@@ -48,8 +48,9 @@ std::optional<std::size_t> SmallStrainHexahedra<Law>::compute_forces(const std::
     this->gather_increment(e, displacement, before, increment);
     Points strain[6];
     hexahedron::strain(geometry_[e], increment, strain);
-    PointHistory &history = this->history(e, 0);
-    update_stress(this->law(), geometry_[e].share_volume, strain, history, this->sectors(e, 0));
+    auto &history = this->history(e, 0);
+    if (!update_stress(this->law(), geometry_[e].share_volume, strain, history, this->reports(e, 0)))
+      return e;
     hexahedron::internal_force(geometry_[e], history.stress, this->force(e));
     if (!start_force_.empty())
       add_start_force(e, displacement);
@@ -135,5 +136,6 @@ void SmallStrainHexahedra<Law>::set_share(const std::span<const double> nodal_sh
 
 template class SmallStrainHexahedra<LinearElastic>;
 template class SmallStrainHexahedra<MohrCoulomb>;
+template class SmallStrainHexahedra<HypoplasticSand>;
 
 } // namespace bergamo::fe

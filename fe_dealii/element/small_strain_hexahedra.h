@@ -15,7 +15,7 @@ class SmallStrainHexahedra final : public SmallStrainElements<Law>
 public:
   /// @param start see SmallStrainElements
   SmallStrainHexahedra(const Law &law, std::vector<unsigned int> nodes, std::vector<hexahedron::Geometry> geometry,
-                       std::vector<PointHistory> start);
+                       std::vector<typename SmallStrainElements<Law>::History> start);
 
   std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
                                             const double *before) override;
@@ -46,5 +46,6 @@ private:
 
 extern template class SmallStrainHexahedra<LinearElastic>;
 extern template class SmallStrainHexahedra<MohrCoulomb>;
+extern template class SmallStrainHexahedra<HypoplasticSand>;
 
 } // namespace bergamo::fe

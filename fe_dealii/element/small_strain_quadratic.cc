@@ -65,7 +65,7 @@ void add_stiffness(const Geometry &geometry, const int pack, const StressOf &str
 template <class Law>
 SmallStrainQuadratic<Law>::SmallStrainQuadratic(const Law &law, std::vector<unsigned int> nodes,
                                                 std::vector<Geometry> geometry, MassShares mass_shares,
-                                                std::vector<PointHistory> start)
+                                                std::vector<typename SmallStrainElements<Law>::History> start)
     : SmallStrainElements<Law>(law, n_nodes, std::move(nodes), std::move(start)), geometry_(std::move(geometry)),
       mass_shares_(std::move(mass_shares))
 {
@@ -87,8 +87,9 @@ std::optional<std::size_t> SmallStrainQuadratic<Law>::compute_forces(const std::
     {
       Points strain_increment[6];
       strain(geometry_[e], pack, increment, strain_increment);
-      PointHistory &history = this->history(e, pack);
-      update_stress(this->law(), geometry_[e].volume[pack], strain_increment, history, this->sectors(e, pack));
+      auto &history = this->history(e, pack);
+      if (!update_stress(this->law(), geometry_[e].volume[pack], strain_increment, history, this->reports(e, pack)))
+        return e;
       add_internal_force(geometry_[e], pack, history.stress, force);
     }
   }
@@ -154,5 +155,6 @@ void SmallStrainQuadratic<Law>::set_share(std::span<const double>)
 
 template class SmallStrainQuadratic<LinearElastic>;
 template class SmallStrainQuadratic<MohrCoulomb>;
+template class SmallStrainQuadratic<HypoplasticSand>;
 
 } // namespace bergamo::fe

@@ -17,7 +17,7 @@ public:
 
   /// @param mass_shares of each node in its element; as many as nodes; @param start see SmallStrainElements
   SmallStrainQuadratic(const Law &law, std::vector<unsigned int> nodes, std::vector<Geometry> geometry,
-                       MassShares mass_shares, std::vector<PointHistory> start);
+                       MassShares mass_shares, std::vector<typename SmallStrainElements<Law>::History> start);
 
   std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
                                             const double *before) override;
@@ -43,5 +43,6 @@ private:
 
 extern template class SmallStrainQuadratic<LinearElastic>;
 extern template class SmallStrainQuadratic<MohrCoulomb>;
+extern template class SmallStrainQuadratic<HypoplasticSand>;
 
 } // namespace bergamo::fe

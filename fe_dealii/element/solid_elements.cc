@@ -12,6 +12,7 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -69,21 +70,49 @@ void check_initial_stress(const Law &law, const Stress &stress, const dealii::Po
   throw ConfigError(message.str());
 }
 
+/// Sand bears no tension, and has a void ratio between the limits of its pressure.
+void check_initial_state(const HypoplasticSand &law, const SandState &state, const dealii::Point<3> &place)
+{
+  const double greatest = principal_frame(state.stress).value[0];
+  const double pressure = std::max(0., -mean_stress(state.stress));
+  const LimitVoidRatios limits = law.limit_void_ratios(pressure);
+  const double e = state.void_ratio;
+  std::ostringstream message;
+  if (!(greatest <= 0)) // nor a NaN
+    message << "continuum: the initial stress at (" << place << ") m has a principal stress of " << greatest
+            << " Pa; sand bears no tension, choose one of compression";
+  else if (e < limits.densest || e > limits.loosest)
+    message << "continuum: initial_void_ratio = " << e << " is not allowed at (" << place << ") m; under a pressure of "
+            << pressure << " Pa choose it between e_d = " << limits.densest << " and e_i = " << limits.loosest;
+  if (!message.str().empty())
+    throw ConfigError(message.str());
+}
+
 /// The points of a cell at rest.
 template <class Law>
 void add_start(const dealii::FEValues<3> &values, const Law &law, const InitialStress &initial_stress,
-               std::vector<PointHistory> &start)
+               std::vector<typename KeptAtPoints<Law>::History> &start)
 {
   const unsigned int n_points = values.n_quadrature_points;
   const std::size_t first = start.size();
-  start.resize(first + (n_points + points_per_pack - 1) / points_per_pack, PointHistory{});
+  start.resize(first + (n_points + points_per_pack - 1) / points_per_pack, {});
+  if constexpr (std::is_same_v<Law, HypoplasticSand>)
+    for (std::size_t pack = first; pack < start.size(); ++pack)
+      start[pack].void_ratio = Points(law.parameters().initial_void_ratio);
   if (!initial_stress)
+  {
+    if constexpr (std::is_same_v<Law, HypoplasticSand>)
+      check_initial_state(law, sand_state(start[first], 0), values.quadrature_point(0));
     return;
+  }
   for (unsigned int point = 0; point < n_points; ++point)
   {
     const dealii::Point<3> &place = values.quadrature_point(point);
     const Stress stress = initial_stress({place[0], place[1], place[2]});
-    check_initial_stress(law, stress, place);
+    if constexpr (std::is_same_v<Law, HypoplasticSand>)
+      check_initial_state(law, {stress, law.parameters().initial_void_ratio}, place);
+    else
+      check_initial_stress(law, stress, place);
     for (int i = 0; i < 6; ++i)
       start[first + point / points_per_pack].stress[i][point % points_per_pack] = stress[i];
   }
@@ -93,7 +122,7 @@ template <class Law>
 std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3> &dof_handler, const Law &law,
                                                      const InitialStress &initial_stress)
 {
-  std::vector<PointHistory> start;
+  std::vector<typename KeptAtPoints<Law>::History> start;
   std::vector<hexahedron::Geometry> geometries;
   for_each_cell(dof_handler, 1,
                 [&](const dealii::FEValues<3> &values)
@@ -174,7 +203,7 @@ template <class Law>
 std::unique_ptr<ElementGroup> small_strain_quadratic(const dealii::DoFHandler<3> &dof_handler, const Law &law,
                                                      const InitialStress &initial_stress)
 {
-  std::vector<PointHistory> start;
+  std::vector<typename KeptAtPoints<Law>::History> start;
   Solids<27> solids(dof_handler,
                     [&](const dealii::FEValues<3> &values) { add_start(values, law, initial_stress, start); });
   return std::make_unique<SmallStrainQuadratic<Law>>(law, cell_nodes(dof_handler), std::move(solids.geometry),
@@ -216,6 +245,7 @@ struct Maker
 
   std::unique_ptr<ElementGroup> operator()(const LinearElastic &law) const { return of_small_strain(law); }
   std::unique_ptr<ElementGroup> operator()(const MohrCoulomb &law) const { return of_small_strain(law); }
+  std::unique_ptr<ElementGroup> operator()(const HypoplasticSand &law) const { return of_small_strain(law); }
   std::unique_ptr<ElementGroup> operator()(const NeoHooke &law) const { return of_large_strain(law); }
   std::unique_ptr<ElementGroup> operator()(const MooneyRivlin &law) const { return of_large_strain(law); }
   std::unique_ptr<ElementGroup> operator()(const Ogden &law) const { return of_large_strain(law); }

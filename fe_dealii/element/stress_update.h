@@ -1,6 +1,8 @@
 #pragma once
 
+#include "fe_dealii/element/point_history.h"
 #include "fe_dealii/element/points.h"
+#include "fe_dealii/element/sand_update.h"
 #include "fe_dealii/material/linear_elastic.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 #include "fe_dealii/material/plastic_flow.h"
@@ -8,15 +10,6 @@
 /// Laws of small strain at the eight points of a pack. Strains are xx yy zz xy yz zx with engineering shears.
 namespace bergamo::fe
 {
-
-/// What eight points remember.
-struct PointHistory
-{
-  Points stress[6];         ///< xx yy zz xy yz zx [Pa]
-  Points plastic_strain;    ///< accumulated equivalent_strain() of the plastic increments [-]
-  Points dissipated_energy; ///< accumulated plastic dissipation, share included [J]
-  Points stiffness_loss;    ///< elastic work less what is stored, share included, where the stiffness varies [J]
-};
 
 /// Elastic stress of a strain at all points.
 template <class Law>
@@ -40,14 +33,15 @@ inline void apply_moduli(const Points (&moduli)[6][6], const Points (&strain)[6]
   }
 }
 
-/// Carries the stresses over a strain increment.
-inline void update_stress(const LinearElastic &material, const Points &, const Points (&strain_increment)[6],
+/// Carries the stresses over a strain increment. @return whether all points could follow: any increment can be
+inline bool update_stress(const LinearElastic &material, const Points &, const Points (&strain_increment)[6],
                           PointHistory &history, Sector *)
 {
   Points increment[6];
   elastic_stress(material, strain_increment, increment);
   for (int i = 0; i < 6; ++i)
     history.stress[i] += increment[i];
+  return true;
 }
 
 /// Takes the trial stresses of a register of points back to the yield surface, and books their plastic flow.
@@ -97,7 +91,8 @@ inline Points stiffness_loss(const MohrCoulomb &material, const Invariants &befo
 
 /// Carries the stresses over a strain increment.
 /// @param weighted_volume times the share that the energies count with [m³]; @param sector one entry per point
-inline void update_stress(const MohrCoulomb &material, const Points &weighted_volume,
+/// @return whether all points could follow: any increment can be
+inline bool update_stress(const MohrCoulomb &material, const Points &weighted_volume,
                           const Points (&strain_increment)[6], PointHistory &history, Sector *sector)
 {
   Points trial[6], stiffness(1.), softness(1.);
@@ -122,6 +117,7 @@ inline void update_stress(const MohrCoulomb &material, const Points &weighted_vo
     history.stiffness_loss += weighted_volume * stiffness_loss(material, before, invariants_of(trial), softness);
   for (int i = 0; i < 6; ++i)
     history.stress[i] = trial[i];
+  return true;
 }
 
 } // namespace bergamo::fe

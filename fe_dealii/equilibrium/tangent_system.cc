@@ -25,6 +25,8 @@ constexpr std::size_t block_elements = 128; // whose matrices are held at the sa
 
 bool flow_is_associated(const Material &material)
 {
+  if (std::holds_alternative<HypoplasticSand>(material))
+    return false;
   const MohrCoulomb *const sand = std::get_if<MohrCoulomb>(&material);
   return !sand || sand->parameters().friction_angle == sand->parameters().dilation_angle;
 }

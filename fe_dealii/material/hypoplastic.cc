@@ -40,6 +40,22 @@ double HypoplasticResponse::greatest_modulus() const
   return shear + volume * of_ratio * of_ratio + stress_norm(flow);
 }
 
+Moduli HypoplasticResponse::tangent(const Strain &strain_rate) const
+{
+  const double size = strain_norm(strain_rate);
+  Moduli moduli{};
+  for (int i = 0; i < 6; ++i)
+  {
+    moduli[i][i] = (i < 3 ? 1 : 0.5) * shear;
+    for (int j = 0; j < 6; ++j)
+    {
+      const double direction = size > 0 ? (j < 3 ? 1 : 0.5) * strain_rate[j] / size : 0; // of ‖D‖ by its components
+      moduli[i][j] += volume * ratio[i] * ratio[j] + flow[i] * direction;
+    }
+  }
+  return moduli;
+}
+
 HypoplasticSand::HypoplasticSand(const HypoplasticParameters &parameters) : p_(parameters)
 {
   parameters.validate();
@@ -47,6 +63,7 @@ HypoplasticSand::HypoplasticSand(const HypoplasticParameters &parameters) : p_(p
   stiffness_ = parameters.granulate_hardness / parameters.compression_exponent *
                std::pow(parameters.loosest_void_ratio / parameters.critical_void_ratio, parameters.stiffness_exponent) /
                parameters.loosest_compression();
+  modulus_ = response({{}, parameters.initial_void_ratio}).greatest_modulus();
 }
 
 LimitVoidRatios HypoplasticSand::limit_void_ratios(const double pressure) const

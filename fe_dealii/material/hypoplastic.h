@@ -26,6 +26,8 @@ struct HypoplasticResponse
   Stress rate(const Strain &strain_rate) const;
   /// No tangent is stiffer: an upper bound of ‖rate(D)‖/‖D‖ over all D [Pa].
   double greatest_modulus() const;
+  /// Derivative of rate() by D; where D is zero there is none, and this is the linear part.
+  Moduli tangent(const Strain &strain_rate) const;
 };
 
 /// Hypoplasticity of sand (von Wolffersdorff, Mech. Cohes.-Frict. Mater. 1 (1996) 251-271): no yield surface and no
@@ -61,12 +63,29 @@ public:
   /// @param pressure p >= 0 [Pa]
   LimitVoidRatios limit_void_ratios(double pressure) const;
 
+  /// @name An elastic solid that is nowhere softer, for stable steps and preconditioners: without lateral stiffness,
+  /// 2G = HypoplasticResponse::greatest_modulus(). These are of no stress and the void ratio of the start.
+  /// @{
+  double shear_modulus() const { return 0.5 * modulus_; } ///< G [Pa]
+  double bulk_modulus() const { return modulus_ / 3; }    ///< K [Pa]
+  double lame_modulus() const { return 0; }               ///< λ [Pa]
+  double stiffness_factor(const SandState &state) const   ///< of those moduli in a state [-]
+  {
+    return response(state).greatest_modulus() / modulus_;
+  }
+  /// @}
+
+  /// Derivative by the strain increment of the stress after it, at its start: for small increments.
+  Moduli tangent(const SandState &start, const Strain &increment) const { return response(start).tangent(increment); }
+
+  double density() const { return p_.density; } ///< at the start [kg/m³]
   const HypoplasticParameters &parameters() const { return p_; }
 
 private:
   HypoplasticParameters p_;
   double a_;         // strength_factor()
   double stiffness_; // factors of f_s that no state changes [Pa]
+  double modulus_;   // greatest_modulus() without stress, at the void ratio of the start
 };
 
 /// Takes principal stresses above zero to zero. @return whether there were any

@@ -104,19 +104,18 @@ SandUpdate update(const HypoplasticSand &sand, const SandState &start, const Str
   return result;
 }
 
-std::string explain(const SandUpdate &failed, const Strain &increment)
+std::string explain(const SandUpdateStatus status, const SandState &state)
 {
+  const Stress &stress = state.stress;
   std::ostringstream text;
-  text << "a stress of xx " << failed.state.stress[0] << " yy " << failed.state.stress[1] << " zz "
-       << failed.state.stress[2] << " xy " << failed.state.stress[3] << " yz " << failed.state.stress[4] << " zx "
-       << failed.state.stress[5] << " Pa and a void ratio of " << failed.state.void_ratio
-       << ", which cannot follow a strain increment of xx " << increment[0] << " yy " << increment[1] << " zz "
-       << increment[2] << " xy " << increment[3] << " yz " << increment[4] << " zx " << increment[5] << ": ";
-  if (failed.status == SandUpdateStatus::no_voids)
-    text << "it would leave no voids between the grains; choose a smaller load or a finer mesh there";
+  text << "sand with a stress of xx " << stress[0] << " yy " << stress[1] << " zz " << stress[2] << " xy " << stress[3]
+       << " yz " << stress[4] << " zx " << stress[5] << " Pa and a void ratio of " << state.void_ratio
+       << " that cannot follow the strain of a step: ";
+  if (status == SandUpdateStatus::no_voids)
+    text << "no voids would be left between the grains; choose a smaller load or a finer mesh there";
   else
-    text << "the least substep does not keep the tolerance, after " << failed.n_substeps
-         << " substeps; choose a smaller time step, or look for what is no finite number";
+    text << "the least substep does not keep the tolerance; choose a smaller time step, or look for what is no finite "
+            "number in the motion of its nodes";
   return text.str();
 }
 

@@ -37,7 +37,7 @@ struct SandUpdate
 SandUpdate update(const HypoplasticSand &sand, const SandState &start, const Strain &increment,
                   const SubstepControl &control = {});
 
-/// What a failed update means and what helps, for a message that begins with element and place.
-std::string explain(const SandUpdate &failed, const Strain &increment);
+/// What a failed update means and what helps: the rest of a sentence "element E has". @param state before it
+std::string explain(SandUpdateStatus status, const SandState &state);
 
 } // namespace bergamo::fe

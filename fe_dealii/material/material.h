@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fe_dealii/material/hypoplastic.h"
 #include "fe_dealii/material/linear_elastic.h"
 #include "fe_dealii/material/mohr_coulomb.h"
 #include "fe_dealii/material/mooney_rivlin.h"
@@ -11,15 +12,16 @@
 namespace bergamo::fe
 {
 
-/// The law of a solid. The first two are of small strain, the others of large strain and rotation.
-using Material = std::variant<LinearElastic, MohrCoulomb, NeoHooke, MooneyRivlin, Ogden>;
+/// The law of a solid. The first three are of small strain, the others of large strain and rotation.
+using Material = std::variant<LinearElastic, MohrCoulomb, HypoplasticSand, NeoHooke, MooneyRivlin, Ogden>;
 
 inline double density(const Material &material)
 {
   return std::visit([](const auto &law) { return law.density(); }, material);
 }
 
-/// Speed of compression waves at small strain, sqrt((K + 4G/3)/ρ) [m/s].
+/// Speed of compression waves at small strain (of hypoplastic sand, an upper bound at its least pressure), sqrt((K +
+/// 4G/3)/ρ) [m/s].
 inline double p_wave_speed(const Material &material)
 {
   return std::visit([](const auto &law)

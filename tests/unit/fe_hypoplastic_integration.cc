@@ -258,14 +258,14 @@ TEST_CASE("Sand update: what cannot be followed is said, and leaves the state as
   const SandUpdate impossible = update(sand, start, small, {.tolerance = 1e-30});
   CHECK(impossible.status == SandUpdateStatus::substep_too_small);
   CHECK(is_unchanged(impossible));
-  CHECK_THAT(explain(impossible, small), Catch::Contains("tolerance") && Catch::Contains("0.7") &&
-                                             Catch::Contains("-10000") && Catch::Contains("-0.002"));
+  CHECK_THAT(explain(impossible.status, impossible.state),
+             Catch::Contains("tolerance") && Catch::Contains("0.7") && Catch::Contains("-10000"));
 
   const Strain crush{-0.2, -0.2, -0.2, 0, 0, 0}; // 1.7 exp(-0.6) < 1
   const SandUpdate crushed = update(sand, start, crush);
   CHECK(crushed.status == SandUpdateStatus::no_voids);
   CHECK(is_unchanged(crushed));
-  CHECK_THAT(explain(crushed, crush), Catch::Contains("no voids"));
+  CHECK_THAT(explain(crushed.status, crushed.state), Catch::Contains("no voids"));
 
   const SandUpdate still = update(sand, start, {});
   CHECK(still.status == SandUpdateStatus::done);
