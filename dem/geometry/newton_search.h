@@ -137,8 +137,9 @@ public:
       const Vector3<Real> n = turn_back(body.rotation, best.c);
       const auto size = [&](const int d) -> Real { return math::max(Real(math::abs(n[d])), Real(1e-100)); };
       const Real in_plane = math::min(size(0), size(1)), least = math::min(in_plane, size(2));
+      const Real off_axis = math::max(Real(math::sqrt(n[0] * n[0] + n[1] * n[1])), Real(1e-100));
       const Real flatness = math::max(Real((body.shape.q1 - Real(2.)) * math::log(in_plane)),
-                                      Real((body.shape.q2 - Real(2.)) * math::log(size(2))));
+                                      Real((body.shape.q2 - Real(2.)) * math::log(math::min(size(2), off_axis))));
       return (least < Real(flat_middle) && math::min(body.shape.q1, body.shape.q2) < Real(2.)) ||
              flatness > Real(flat_radius);
     };
@@ -293,8 +294,8 @@ private:
 ///    adds its own. In the middle of a flat face rho is infinite, in that one direction, and the search may come to
 ///    rest beside the minimum: its steps are too short there. Of 1.8 million random pairs that touch, with exponents
 ///    up to 1.75 and ratios of half-axes up to 20, 23 had a lower minimum although low > 12 q phi: 18 with q > 4.4 and
-///    low up to 1e4 q phi, 4 in flat middles, one with q = 3.1 and low = 14 q phi; of the pairs of the fuzz target one
-///    on a flat face beside its middle, with low = 27 q phi.
+///    low up to 1e4 q phi, 4 in flat middles, one with q = 3.1 and low = 14 q phi; of the pairs of the fuzz target two
+///    on flat faces beside their middles, with low = 27 and 61 q phi.
 template <class Real>
 math::Mask<Real> is_suspicious(const NewtonSearch<Real> &search)
 {
