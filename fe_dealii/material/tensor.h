@@ -53,6 +53,20 @@ inline double second_invariant(const Stress &stress)
   return 0.5 * (x * x + y * y + z * z) + stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5];
 }
 
+/// ‖σ‖ = sqrt(σ:σ) [Pa].
+inline double stress_norm(const Stress &stress)
+{
+  const double normal = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2];
+  return std::sqrt(normal + 2 * (stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5]));
+}
+
+/// ‖ε‖ = sqrt(ε:ε) [-].
+inline double strain_norm(const Strain &strain)
+{
+  const double normal = strain[0] * strain[0] + strain[1] * strain[1] + strain[2] * strain[2];
+  return std::sqrt(normal + 0.5 * (strain[3] * strain[3] + strain[4] * strain[4] + strain[5] * strain[5]));
+}
+
 /// ½ σ : C⁻¹ : σ of an isotropic elastic solid [J/m³]. @param bulk, shear moduli K, G [Pa]
 inline double elastic_energy_density(const Stress &stress, const double bulk, const double shear)
 {
