@@ -64,11 +64,6 @@ MembraneBody sheet()
   return MembraneBody(mesh, {.material = Ogden({}), .thickness = 1e-3, .gravity = {0, 0, -g}, .damping = 2});
 }
 
-std::vector<double> copy_of(const std::span<const double> vector)
-{
-  return {vector.begin(), vector.end()};
-}
-
 /// All that a step depends on.
 std::vector<double> state_of(MovingBody &body)
 {
