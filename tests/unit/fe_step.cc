@@ -18,7 +18,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <span>
 
 using namespace bergamo;
 using namespace bergamo::fe;
