@@ -127,15 +127,21 @@ public:
     return target / target.norm();
   }
 
-  /// Whether best.c is in the middle of a flat region of one of the bodies (a component of its normal is nearly zero
-  /// and a dual exponent below two): the radius of curvature goes to infinity there, in that one direction.
+  /// Whether best.c is in a flat region of one of the bodies: a component n of its normal is nearly zero and a dual
+  /// exponent q below two. The radius of curvature goes to infinity there, in that one direction, as n^(q - 2); towards
+  /// a box, q near one, the face is flat up to an edge that its radii say nothing of.
   Mask is_in_flat_middle() const
   {
     const auto is_in = [&](const Pose<Real> &body)
     {
       const Vector3<Real> n = turn_back(body.rotation, best.c);
-      const Real least = math::min(math::min(math::abs(n[0]), math::abs(n[1])), math::abs(n[2]));
-      return least < Real(flat_middle) && math::min(body.shape.q1, body.shape.q2) < Real(2.);
+      const auto size = [&](const int d) -> Real { return math::max(Real(math::abs(n[d])), Real(1e-100)); };
+      const Real in_plane = math::min(size(0), size(1)), least = math::min(in_plane, size(2));
+      const Real off_axis = math::max(Real(math::sqrt(n[0] * n[0] + n[1] * n[1])), Real(1e-100));
+      const Real flatness = math::max(Real((body.shape.q1 - Real(2.)) * math::log(in_plane)),
+                                      Real((body.shape.q2 - Real(2.)) * math::log(math::min(size(2), off_axis))));
+      return (least < Real(flat_middle) && math::min(body.shape.q1, body.shape.q2) < Real(2.)) ||
+             flatness > Real(flat_radius);
     };
     return is_in(body1) || is_in(body2);
   }
@@ -156,6 +162,7 @@ private:
   static constexpr double max_widenings = 3.;
   static constexpr double wide_enough = 0.1;  // what is left to be gained over the gap
   static constexpr double flat_middle = 1e-4; // of a unit normal
+  static constexpr double flat_radius = 6.;   // logarithm of the radius over that of a round face
 
   /// Inverse of the model's Hessian in tangent_frame(best.c): symmetric, positive definite [1/m]. The inverse, because
   /// beside the huge radius of a flat face it keeps the other one; the Hessian itself would lose it in rounding.
@@ -287,7 +294,8 @@ private:
 ///    adds its own. In the middle of a flat face rho is infinite, in that one direction, and the search may come to
 ///    rest beside the minimum: its steps are too short there. Of 1.8 million random pairs that touch, with exponents
 ///    up to 1.75 and ratios of half-axes up to 20, 23 had a lower minimum although low > 12 q phi: 18 with q > 4.4 and
-///    low up to 1e4 q phi, 4 in flat middles, one with q = 3.1 and low = 14 q phi.
+///    low up to 1e4 q phi, 4 in flat middles, one with q = 3.1 and low = 14 q phi; of the pairs of the fuzz target two
+///    on flat faces beside their middles, with low = 27 and 61 q phi.
 template <class Real>
 math::Mask<Real> is_suspicious(const NewtonSearch<Real> &search)
 {

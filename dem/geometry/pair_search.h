@@ -153,7 +153,10 @@ private:
       : found(detail::found_at(search.best)), search(search), next(search.next()), is_known(is_known)
   {
     const math::Mask<Real> is_number = found.overlap == found.overlap; // a state that is none stops the run elsewhere
-    is_decided = !is_number || !(search.is_open || is_saddle(search) || (!is_known && is_suspicious(search)));
+    math::Mask<Real> is_doubtful = search.is_open || is_saddle(search);
+    if (math::any(!is_known))
+      is_doubtful = is_doubtful || (!is_known && is_suspicious(search));
+    is_decided = !is_number || !is_doubtful;
     for (int k = 0; k < width<Real>; ++k)
       found.is_undecided[k] = !math::lane(is_number, k);
   }

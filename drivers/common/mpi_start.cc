@@ -1,14 +1,15 @@
 #include "drivers/common/mpi_start.h"
 
 #include "dem/core/error.h"
+#include "drivers/common/folder_probe.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <utility>
 
 namespace bergamo::driver
 {
@@ -31,8 +32,7 @@ std::pair<std::string, std::string> folder_of_mpi()
 void require_mpi_can_start()
 {
   const auto [name, folder] = folder_of_mpi();
-  std::string probe = folder + "/bergamo_XXXXXX";
-  if (::mkdtemp(probe.data()) == nullptr || ::rmdir(probe.c_str()) != 0)
+  if (!can_make_folder_in(folder))
     reject("MPI, which this driver needs, cannot make its folder in '", folder, "': ", std::strerror(errno), "; set ",
            name, " to a folder that can be written");
   rlimit files = {};

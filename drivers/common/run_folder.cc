@@ -3,6 +3,7 @@
 #include "dem/core/error.h"
 #include "dem/core/file_error.h"
 #include "drivers/common/command_line.h"
+#include "drivers/common/folder_probe.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <utility>
 
 namespace bergamo::driver
@@ -62,9 +62,7 @@ void check_writable(const fs::path &folder)
   if (!fs::is_directory(existing, ignored))
     throw ConfigError("output folder '" + folder.string() + "' cannot be made: '" + existing.string() +
                       "' is a file; choose another folder with --output");
-  // Only trying tells: access() says yes to root on file systems where nothing can be made.
-  std::string probe = (existing / ".writable_XXXXXX").string();
-  if (::mkdtemp(probe.data()) == nullptr || ::rmdir(probe.c_str()) != 0)
+  if (!can_make_folder_in(existing))
     throw ConfigError(
         file_error(existing == fs::absolute(folder) ? "write to output folder" : "make output folder", folder, errno));
 }

@@ -73,12 +73,11 @@ void RigidBody::set_angular_velocity(const Vector &spin)
   motion_.prescribe(velocity(), spin, 0);
 }
 
-double RigidBody::power() const
+double RigidBody::power(const Vector &velocity, const Vector &spin) const
 {
   double sum = 0;
   for (int i = 0; i < 3; ++i)
-    sum += (motion_.inertia().mass * gravity_[i] + guide_force()[i]) * velocity()[i] +
-           guide_moment()[i] * angular_velocity()[i];
+    sum += (motion_.inertia().mass * gravity_[i] + guide_force()[i]) * velocity[i] + guide_moment()[i] * spin[i];
   return sum;
 }
 
@@ -92,12 +91,8 @@ void RigidBody::kick(const double dt)
     force[i] += motion_.inertia().mass * gravity_[i];
   const Vector velocity_before = velocity(), spin_before = angular_velocity();
   motion_.kick(force, moment_, kept_.last_step > 0 ? 0.5 * (kept_.last_step + dt) : dt, dt);
-  double power_before = 0;
-  for (int i = 0; i < 3; ++i)
-    power_before += (motion_.inertia().mass * gravity_[i] + guide_force()[i]) * velocity_before[i] +
-                    guide_moment()[i] * spin_before[i];
-  kept_.work = kept_.work_ahead + 0.5 * kept_.last_step * power_before;
-  kept_.work_ahead = kept_.work + 0.5 * dt * power();
+  kept_.work = kept_.work_ahead + 0.5 * kept_.last_step * power(velocity_before, spin_before);
+  kept_.work_ahead = kept_.work + 0.5 * dt * power(velocity(), angular_velocity());
   kept_.last_step = dt;
   kept_.is_kicked = 1;
 }

@@ -67,7 +67,7 @@ public:
   std::vector<std::pair<std::string, std::span<double>>> state();
 
 private:
-  double power() const; // of gravity and the guides at the velocities of the half step [W]
+  double power(const Vector &velocity, const Vector &spin) const; // of gravity and the guides [W]
 
   RigidMotion motion_;
   Vector gravity_;

@@ -66,10 +66,20 @@ HypoplasticSand::HypoplasticSand(const HypoplasticParameters &parameters) : p_(p
   modulus_ = response({{}, parameters.initial_void_ratio}).greatest_modulus();
 }
 
+double HypoplasticSand::compression_power(const double pressure) const
+{
+  return std::pow(3 * pressure / p_.granulate_hardness, p_.compression_exponent);
+}
+
+LimitVoidRatios HypoplasticSand::limits_at(const double compression_power) const
+{
+  const double share = std::exp(-compression_power);
+  return {p_.densest_void_ratio * share, p_.critical_void_ratio * share, p_.loosest_void_ratio * share};
+}
+
 LimitVoidRatios HypoplasticSand::limit_void_ratios(const double pressure) const
 {
-  const double share = std::exp(-std::pow(3 * pressure / p_.granulate_hardness, p_.compression_exponent));
-  return {p_.densest_void_ratio * share, p_.critical_void_ratio * share, p_.loosest_void_ratio * share};
+  return limits_at(compression_power(pressure));
 }
 
 HypoplasticResponse HypoplasticSand::response(const SandState &state) const
@@ -84,16 +94,14 @@ HypoplasticResponse HypoplasticSand::response(const SandState &state) const
     response.ratio[i] = deviator[i] + (i < 3 ? 1. / 3 : 0);
   }
 
-  const double hardness_share = 3 * pressure / p_.granulate_hardness;
-  const double power = std::pow(hardness_share, p_.compression_exponent);
-  const double compression = std::exp(-power); // of all limits
-  const double densest = p_.densest_void_ratio * compression, critical = p_.critical_void_ratio * compression,
-               loosest = p_.loosest_void_ratio * compression;
+  const double power = compression_power(pressure);
+  const auto [densest, critical, loosest] = limits_at(power);
   const double e = std::clamp(state.void_ratio, densest, loosest);
   const double f_d = std::pow((e - densest) / (critical - densest), p_.pyknotropy_exponent);
   const double f_e = std::pow(critical / e, p_.stiffness_exponent);
   const double of_ratio = stress_norm(response.ratio);
-  const double f_s = stiffness_ * f_e * (1 + loosest) / loosest * hardness_share / power / (of_ratio * of_ratio);
+  const double f_s = stiffness_ * f_e * (1 + loosest) / loosest * (3 * pressure / p_.granulate_hardness) / power /
+                     (of_ratio * of_ratio);
 
   const double f = matsuoka_nakai_factor(deviator);
   response.shear = f_s * f * f;

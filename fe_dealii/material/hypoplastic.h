@@ -43,8 +43,7 @@ struct HypoplasticResponse
 /// strain.
 ///
 /// Stated for pressures above zero and e_d <= e <= e_i. Beyond that:
-/// - Below `least_pressure` the equation is evaluated with the mean stress at −least_pressure and the deviator as it
-/// is.
+/// - Below `least_pressure` the equation is evaluated with that mean pressure, and the deviator as it is.
 ///   The stiffness would vanish with the pressure and T̂ have no limit; a free surface then could bear nothing, and an
 ///   increment would never be small enough.
 /// - No principal stress exceeds zero: sand has no tension, and what an increment would make of it is cut off. Grains
@@ -82,6 +81,10 @@ public:
   const HypoplasticParameters &parameters() const { return p_; }
 
 private:
+  /// (3p/h_s)^n [-]
+  double compression_power(double pressure) const;
+  LimitVoidRatios limits_at(double compression_power) const;
+
   HypoplasticParameters p_;
   double a_;         // strength_factor()
   double stiffness_; // factors of f_s that no state changes [Pa]

@@ -100,6 +100,23 @@ TEST_CASE("symmetric pairs: the middle of a flat face may be the higher of two m
   }
 }
 
+TEST_CASE("tips of boxes: a face that is flat up to its edge may hold the higher of two minima")
+{
+  // The normal is 7e-4 off the middle of a face that is flat until that is one: the other face is 17 % shallower.
+  const Vec3 half_axes(0.01097387762643633, 0.0028307136131567397, 0.47155594723541444);
+  check_least({grain(half_axes, 0.044709889448386365, 1.2094603841153582, {0, 0, 0}, {1, 0, 0, 0}),
+               grain(half_axes, 0.044709889448386365, 1.2094603841153582,
+                     {7.6533664833378028e-05, 1.7112282439589764e-05, 0.94305461999771401},
+                     {1, 1.016565e-07, -4.3331261e-07, 1.209665e-06})},
+              ContactStatus::touching);
+  // The end of a flat prism, 5e-4 off its middle: a corner of it is half as deep.
+  const Vec3 prism(0.00018914665146038033, 0.026270631460646999, 0.10649118241110987);
+  check_least({grain(prism, 0.83277654625772501, 1e-6, {0, 0, 0}, {1, -3.6067247e-07, 5.1175937e-07, -6.9269295e-07}),
+               grain(prism, 0.83277654625772501, 1e-6,
+                     {-7.7976657299093911e-06, 0.052539053026633725, 0.21298189297447387}, {1, 0, 0, 0})},
+              ContactStatus::touching);
+}
+
 TEST_CASE("crossed edges that seem to touch while another direction separates the grains")
 {
   // phi is least at the kink of both edges nearby, and negative ten degrees on.

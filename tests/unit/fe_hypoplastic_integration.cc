@@ -76,7 +76,7 @@ SandState reference_update(const HypoplasticParameters &p, const SandState &star
 TEST_CASE("Sand update: the loosest state follows Bauer's law", "[fe]")
 {
   // Errors contract on the way, for compression stiffens, and the more on the denser side of e_i.
-  for (const HypoplasticParameters &parameters : {hochstetten(), toyoura()})
+  for (const HypoplasticParameters &parameters : {medium_sand(), fine_sand()})
   {
     const HypoplasticSand sand(parameters);
     for (const double to : {10e3, 1e6, 100e6})
@@ -97,10 +97,10 @@ TEST_CASE("Sand update: the loosest state follows Bauer's law", "[fe]")
 
 TEST_CASE("Sand update: order three inside the limits", "[fe]")
 {
-  const HypoplasticSand sand(hochstetten());
+  const HypoplasticSand sand(medium_sand());
   const SandState start{{-100e3, -150e3, -120e3, 10e3, -20e3, 5e3}, 0.75};
   const Strain whole{2e-3, 1e-3, -8e-3, 4e-3, 3e-3, -2e-3};
-  const Stress expected = reference_update(hochstetten(), start, whole, 4000).stress;
+  const Stress expected = reference_update(medium_sand(), start, whole, 4000).stress;
   double last = 0;
   for (const int n : {8, 16, 32, 64})
   {
@@ -124,7 +124,7 @@ TEST_CASE("Sand update: order three inside the limits", "[fe]")
 
 TEST_CASE("Sand update: the error keeps to its tolerance in one increment, at a price of its third root", "[fe]")
 {
-  const HypoplasticSand sand(hochstetten());
+  const HypoplasticSand sand(medium_sand());
   const double from = 1e3, to = 10e6;
   const Strain whole = bauer_compression(sand, from, to);
   int last = 0;
@@ -151,7 +151,7 @@ TEST_CASE("Sand update: increments in all directions come to what the equation's
 {
   Random random;
   double worst = 0, worst_parted = 0;
-  for (const HypoplasticParameters &parameters : {hochstetten(), toyoura()})
+  for (const HypoplasticParameters &parameters : {medium_sand(), fine_sand()})
   {
     const HypoplasticSand sand(parameters);
     for (int trial = 0; trial < 200; ++trial)
@@ -185,7 +185,7 @@ TEST_CASE("Sand update: increments in all directions come to what the equation's
 TEST_CASE("Sand update: a rotated problem has the rotated solution", "[fe]")
 {
   Random random;
-  const HypoplasticSand sand(hochstetten());
+  const HypoplasticSand sand(medium_sand());
   for (int trial = 0; trial < 200; ++trial)
   {
     const SandState start = random.state(sand);
@@ -205,7 +205,7 @@ TEST_CASE("Sand update: a rotated problem has the rotated solution", "[fe]")
 
 TEST_CASE("Sand update: extension takes the stress to nothing, and compression brings it back from there", "[fe]")
 {
-  const HypoplasticSand sand(hochstetten());
+  const HypoplasticSand sand(medium_sand());
   SandUpdate result = update(sand, isotropic(10e3, 0.7), {1e-2, 1e-2, 1e-2, 0, 0, 0});
   REQUIRE(result.status == SandUpdateStatus::done);
   CHECK(stress_norm(result.state.stress) == 0);
@@ -242,7 +242,7 @@ TEST_CASE("Sand update: extension takes the stress to nothing, and compression b
 
 TEST_CASE("Sand update: what cannot be followed is said, and leaves the state as it was", "[fe]")
 {
-  const HypoplasticSand sand(hochstetten());
+  const HypoplasticSand sand(medium_sand());
   const SandState start = isotropic(10e3, 0.7);
   const Strain small{1e-3, -2e-3, -1e-3, 0, 0, 0};
   const auto is_unchanged = [&](const SandUpdate &result)

@@ -11,8 +11,8 @@
 namespace bergamo::fe::sands
 {
 
-/// von Wolffersdorff 1996.
-inline HypoplasticParameters hochstetten()
+/// About the quartz sand of von Wolffersdorff (1996) from Hochstetten: numbers as usual, not checked against his table.
+inline HypoplasticParameters medium_sand()
 {
   return {.critical_friction_angle = 33,
           .granulate_hardness = 1000e6,
@@ -24,8 +24,9 @@ inline HypoplasticParameters hochstetten()
           .stiffness_exponent = 1.5};
 }
 
-/// Herle and Gudehus 1999.
-inline HypoplasticParameters toyoura()
+/// Another one, about Toyoura sand in Herle and Gudehus (1999), not checked against their table either: what is tested
+/// holds for any.
+inline HypoplasticParameters fine_sand()
 {
   return {.critical_friction_angle = 30,
           .granulate_hardness = 2600e6,

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <span>
 
 using namespace bergamo;
 using namespace bergamo::fe;
@@ -62,11 +61,6 @@ MembraneBody sheet()
   dealii::Triangulation<2, 3> mesh;
   dealii::GridGenerator::flatten_triangulation(flat, mesh);
   return MembraneBody(mesh, {.material = Ogden({}), .thickness = 1e-3, .gravity = {0, 0, -g}, .damping = 2});
-}
-
-std::vector<double> copy_of(const std::span<const double> vector)
-{
-  return {vector.begin(), vector.end()};
 }
 
 /// All that a step depends on.
