@@ -134,10 +134,10 @@ std::string fit_json(const Ensemble &ensemble, const EnsembleFit &fit, const Fit
 
 std::string continuum_text(const EnsembleFit &fit, const std::string &ensemble_folder)
 {
-  fe::MohrCoulombParameters continuum = fit.continuum;
+  ContinuumParameters continuum{.mohr_coulomb = fit.continuum};
   ParameterFile file("Continuum fitted by fit_mohr_coulomb to " + std::to_string(fit.all.n_samples) + " samples of " +
                      ensemble_folder);
-  declare_continuum(file, continuum);
+  continuum.declare(file);
   return file.resolved_text();
 }
 

@@ -40,13 +40,13 @@ fe::ExplicitBody make_ground(const FootingParameters &p)
         face->set_boundary_id(footing);
 
   fe::ExplicitBodyParameters body;
-  body.material = fe::MohrCoulomb(p.continuum);
+  body.material = p.continuum.material();
   body.degree = p.degree;
   body.gravity = {0, 0, -p.gravity};
   body.damping = p.damping;
   if (p.gravity > 0 || p.surcharge > 0)
     body.initial_stress = fe::geostatic_stress({.surface_height = 0,
-                                                .unit_weight = p.continuum.density * p.gravity,
+                                                .unit_weight = p.continuum.density() * p.gravity,
                                                 .earth_pressure_at_rest = p.earth_pressure_at_rest,
                                                 .surcharge = p.surcharge});
   return fe::ExplicitBody(mesh, body);

@@ -128,7 +128,9 @@ Summary FootingRun::summary() const
   summary.set("limit_pressure_Pa", limit.davis, "Pa");
   summary.set("limit_pressure_associated_Pa", limit.associated, "Pa");
   summary.set("bearing_over_limit", bearing.mean() / limit.davis);
-  summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
+  if (!parameters.continuum.is_sand()) // which stores no energy
+    summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
+  summary.set("kinetic_energy_over_footing_work", energy.kinetic / energy.boundary_work);
   summary.set("greatest_rotation_degrees", rotation.greatest(), "degrees");
   summary.set("stiffness_loss_over_footing_work", energy.stiffness_loss / energy.boundary_work);
   return summary;
@@ -141,7 +143,7 @@ int main(int argc, char **argv)
   return run_driver(
       argc, argv,
       {"strip_footing",
-       "Presses a strip footing into Mohr-Coulomb ground in plane strain, from the ground at rest to the "
+       "Presses a strip footing into Mohr-Coulomb ground or sand in plane strain, from the ground at rest to the "
        "limit load, and compares it with the closed form."},
       [](const CommandLine &command_line)
       { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line, true); });

@@ -1,7 +1,7 @@
 #include "drivers/strip_footing/parameters.h"
 
 #include "dem/core/error.h"
-#include "drivers/common/continuum_parameters.h"
+#include "drivers/common/number_text.h"
 #include "drivers/strip_footing/bearing_capacity.h"
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace bergamo::driver
 
 FootingParameters::FootingParameters()
 {
-  continuum.young_modulus = 20e6;
-  continuum.poisson_ratio = 0.3;
-  continuum.friction_angle = 0;
-  continuum.dilation_angle = 0;
-  continuum.cohesion = 10e3;
-  continuum.density = 1800;
+  continuum.mohr_coulomb = {.young_modulus = 20e6,
+                            .poisson_ratio = 0.3,
+                            .friction_angle = 0,
+                            .dilation_angle = 0,
+                            .cohesion = 10e3,
+                            .density = 1800};
   output.n_pictures = 2;
 }
 
@@ -43,7 +43,7 @@ void FootingParameters::declare(ParameterFile &file)
   file.add("Ground", "earth pressure at rest", earth_pressure_at_rest, "K0: horizontal over vertical stress at rest",
            Range::non_negative());
 
-  declare_continuum(file, continuum);
+  continuum.declare(file);
   file.add("Continuum", "damping", damping, "mass-proportional [1/s]", Range::non_negative());
 
   file.add("Output", "step share", step_share, "of the stable time step", Range::strictly_between(0, 1));
@@ -67,8 +67,12 @@ void FootingParameters::validate() const
            " elements, more than can be numbered; choose a smaller Ground/width or Ground/depth, or fewer "
            "Ground/elements under half the footing");
   if (!(limit_pressure().davis > 0))
-    reject("the ground bears no footing: Continuum/cohesion is ", continuum.cohesion, ", Ground/surcharge ", surcharge,
-           " and Ground/gravity ", gravity, "; one of them must be positive");
+    reject("the ground bears no footing: ",
+           continuum.is_sand() ? "" : "Continuum/cohesion is " + short_text(continuum.mohr_coulomb.cohesion) + ", ",
+           "Ground/surcharge is ", surcharge, " and Ground/gravity ", gravity, "; one of them must be positive");
+  const double vertical = surcharge + 0.5 * element_size() * continuum.density() * gravity;
+  continuum.require_pressure(vertical * (1 + 2 * earth_pressure_at_rest) / 3,
+                             "half an element below the surface the ground has", "raise Ground/surcharge");
   if (settlement > 0.2 * width)
     reject("Footing/settlement is ", settlement, " m: strains are small up to about a fifth of Footing/width, ",
            0.2 * width, " m");
@@ -80,10 +84,13 @@ LimitPressure FootingParameters::limit_pressure() const
   {
     const BearingFactors n = bearing_factors(strength.friction_angle, rough);
     return strength.cohesion * n.cohesion + surcharge * n.surcharge +
-           0.5 * continuum.density * gravity * width * n.weight;
+           0.5 * continuum.density() * gravity * width * n.weight;
   };
-  const Strength full{continuum.friction_angle, continuum.cohesion};
-  return {pressure(davis_strength(full, continuum.dilation_angle)), pressure(full)};
+  const Strength full = continuum.is_sand()
+                            ? Strength{continuum.sand.critical_friction_angle, 0}
+                            : Strength{continuum.mohr_coulomb.friction_angle, continuum.mohr_coulomb.cohesion};
+  const double dilation_angle = continuum.is_sand() ? 0 : continuum.mohr_coulomb.dilation_angle;
+  return {pressure(davis_strength(full, dilation_angle)), pressure(full)};
 }
 
 } // namespace bergamo::driver

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "drivers/common/continuum_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
-#include "fe_dealii/material/mohr_coulomb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,8 @@
 namespace bergamo::driver
 {
 
-/// Limit pressures in closed form [Pa].
+/// Limit pressures in closed form [Pa]. Of sand, with the friction of its critical state and no dilation: what dense
+/// ground exceeds and loose ground comes near at large settlements.
 struct LimitPressure
 {
   double davis;      ///< with the strength that the flow rule leaves, see davis_strength()
@@ -36,7 +37,7 @@ struct FootingParameters
   double surcharge = 0;              ///< on the whole surface [Pa]
   double earth_pressure_at_rest = 1; ///< K0
 
-  fe::MohrCoulombParameters continuum;
+  ContinuumParameters continuum;
   double damping = 5; ///< mass-proportional [1/s]
 
   double step_share = 0.9; ///< of the stable time step

@@ -1,0 +1,123 @@
+#include "fe_dealii/boundary/surface.h"
+#include "fe_dealii/boundary/surface_load.h"
+#include "fe_dealii/equilibrium/static_equilibrium.h"
+#include "fe_dealii/explicit_body.h"
+#include "fe_dealii/material/hypoplastic_integration.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+using namespace bergamo::fe;
+
+namespace
+{
+
+HypoplasticParameters sand_of(const double void_ratio)
+{
+  HypoplasticParameters hochstetten;
+  hochstetten.initial_void_ratio = void_ratio;
+  return hochstetten;
+}
+
+/// How fast a balance is found: the exponents log(r3/r2)/log(r2/r1) of the residuals that follow each other, over
+/// those between the first steps and the error that substeps are allowed.
+std::vector<double> orders(const std::vector<double> &residual)
+{
+  std::vector<double> result;
+  for (std::size_t k = 2; k < residual.size(); ++k)
+    if (residual[k - 2] < 1e-2 && residual[k] > 1e-13)
+      result.push_back(std::log(residual[k] / residual[k - 1]) / std::log(residual[k - 1] / residual[k - 2]));
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("hypoplastic sand: one element in a drained triaxial test by Newton's method is the point", "[fe]")
+{
+  constexpr double pressure = 100e3, step = 1e-3;
+  const unsigned int degree = GENERATE(1u, 2u);
+  const double void_ratio = GENERATE(0.60, 0.85);
+  CAPTURE(degree, void_ratio);
+  const HypoplasticSand sand(sand_of(void_ratio));
+  ExplicitBodyParameters parameters;
+  parameters.material = sand;
+  parameters.degree = degree;
+  parameters.initial_stress = uniform_pressure(pressure);
+  ExplicitBody body = make_box_body({{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}, parameters);
+  body.prescribe_velocity(5, 2, -step);
+  for (const unsigned int face : {0u, 2u, 4u})
+    body.prescribe_velocity(face, face / 2);
+  for (const unsigned int face : {1u, 3u})
+  {
+    std::array<double, 3> traction{};
+    traction[face / 2] = -pressure;
+    SurfaceLoad(boundary_surface(body.dof_handler(), face), body.node_position())
+        .add_traction(traction, body.external_force());
+  }
+
+  SandState point{{-pressure, -pressure, -pressure, 0, 0, 0}, void_ratio};
+  double share = 0, worst = 0;
+  std::size_t most_iterations = 0;
+  for (int k = 0; k < 100; ++k)
+  {
+    const EquilibriumReport report = find_equilibrium(body, {.duration = 1});
+    most_iterations = std::max(most_iterations, report.residual.size() - 1);
+    REQUIRE(report.n_increments == 1);
+    SandUpdate next{};
+    for (int search = 0; search < 20; ++search)
+    {
+      const Strain increment{share * step, share * step, -step, 0, 0, 0};
+      const Moduli moduli = consistent_tangent(sand, point, increment);
+      next = update(sand, point, increment);
+      share -= (next.state.stress[0] + pressure) / (step * (moduli[0][0] + moduli[0][1]));
+    }
+    point = next.state;
+    const ElementState element = body.state_of(0);
+    worst =
+        std::max({worst, std::abs(element.stress[0] / -pressure - 1), std::abs(element.stress[2] / point.stress[2] - 1),
+                  std::abs(element.void_ratio / point.void_ratio - 1)});
+  }
+  CHECK(worst < 1e-8); // the balance is found to 1e-9
+  CHECK(most_iterations <= 8);
+}
+
+TEST_CASE("hypoplastic sand: under a strip load Newton's method is of second order", "[fe]")
+{
+  const HypoplasticSand sand(sand_of(0.65));
+  ExplicitBodyParameters parameters;
+  parameters.material = sand;
+  parameters.degree = GENERATE(1u, 2u);
+  parameters.gravity = {0, 0, -9.81};
+  parameters.initial_stress =
+      geostatic_stress({.unit_weight = 9.81 * sand.density(), .earth_pressure_at_rest = 0.5, .surcharge = 20e3});
+  ExplicitBody body = make_box_body({{0, 0, -1}, {2, 0.25, 0}, {8, 1, 4}}, parameters);
+  std::vector<unsigned int> footing;
+  for (const unsigned int node : body.boundary_nodes(5))
+    if (body.node_position()[node][0] < 0.51)
+      footing.push_back(node);
+  for (const unsigned int component : {0u, 1u})
+    body.prescribe_velocity(footing, component);
+  body.prescribe_velocity(footing, 2, -5e-4);
+  for (unsigned int face = 0; face < 5; ++face)
+    body.prescribe_velocity(face, face / 2);
+  SurfaceLoad(boundary_surface(body.dof_handler(), 5), body.node_position())
+      .add_traction({0, 0, -20e3}, body.external_force());
+  REQUIRE(find_equilibrium(body).residual.size() == 1);
+  std::vector<double> all;
+  for (int k = 0; k < 4; ++k)
+  {
+    const EquilibriumReport report = find_equilibrium(body, {.duration = 1});
+    CAPTURE(k, report.residual, report.n_increments);
+    CHECK(report.n_increments == 1);
+    CHECK(report.residual.size() <= 12);
+    for (const double order : orders(report.residual))
+      all.push_back(order);
+  }
+  CAPTURE(all);
+  REQUIRE(!all.empty());
+  CHECK(*std::min_element(all.begin(), all.end()) > 1.5);
+}
