@@ -88,12 +88,14 @@ int FootingRun::go()
     model.kick();
   };
   stage.move = [&] { model.drift(); };
-  const auto is_at_the_limit = [&](const Moment &now) { return now.time >= (1 - bearing_share) * end; };
+  const auto at_the_limit = [&](const Moment &now) { return now.time >= (1 - bearing_share) * end; };
+  const auto see = [&] { bearing.see(model.footing_pressure(), parameters.settlement_at(time())); };
   const auto add_bearing = [&] { bearing.add(model.footing_pressure(), model.time_step()); };
   const auto times = [&](const auto n) { return either(every_time(end / std::max<double>(1, n)), at_the_end()); };
   const auto add_picture = [&] { pictures.add(time(), pictures_of(nullptr, &model.body())); };
   const bool is_done = run.advance(stage, {{times(parameters.output.n_samples), [&] { sample(history); }},
-                                           {is_at_the_limit, add_bearing},
+                                           {every_steps(1), see},
+                                           {at_the_limit, add_bearing},
                                            {times(parameters.output.n_pictures - 1), add_picture}});
   return is_done ? run.finish(summary(), {"strip_footing/plot.py", "energy.py"}) : run.stop();
 }
@@ -122,9 +124,7 @@ Summary FootingRun::summary() const
   summary.set("elements", static_cast<std::int64_t>(model.body().n_elements()));
   summary.set("element_updates_per_second", updates / figures.wall_time_s, "1/s");
   summary.set("start_out_of_balance", model.start().residual.back());
-  summary.set("bearing_pressure_Pa", bearing.mean(), "Pa");
-  summary.set("bearing_pressure_lowest_Pa", bearing.lowest(), "Pa");
-  summary.set("bearing_pressure_highest_Pa", bearing.highest(), "Pa");
+  bearing.add_figures(summary);
   summary.set("limit_pressure_Pa", limit.davis, "Pa");
   summary.set("limit_pressure_associated_Pa", limit.associated, "Pa");
   summary.set("bearing_over_limit", bearing.mean() / limit.davis);
@@ -143,8 +143,7 @@ int main(int argc, char **argv)
   return run_driver(
       argc, argv,
       {"strip_footing",
-       "Presses a strip footing into Mohr-Coulomb ground or sand in plane strain, from the ground at rest to the "
-       "limit load, and compares it with the closed form."},
+       "Presses a strip footing into the ground in plane strain, from rest to the limit load: closed form beside it."},
       [](const CommandLine &command_line)
       { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line, true); });
 }

@@ -1,0 +1,83 @@
+#include "drivers/fit_mohr_coulomb/law_misfit.h"
+
+#include "drivers/fit_mohr_coulomb/sand_path.h"
+
+#include <array>
+#include <cmath>
+
+namespace bergamo::driver
+{
+namespace
+{
+
+enum Kind
+{
+  ratio,
+  volume,
+  compression,
+  n_kinds
+};
+
+/// Calls take(kind, grains, law) with the values of every point.
+template <class Take>
+void for_each_value(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves, const Take &take)
+{
+  for (std::size_t t = 0; t < tests.size(); ++t)
+  {
+    const SandTest &test = tests[t];
+    const LawCurves &law = curves[t];
+    const double start = test.shear.front().volumetric_strain.mean; // which the law's curve counts from
+    for (std::size_t i = 0; i < test.shear.size(); ++i)
+    {
+      take(ratio, test.shear[i].stress_ratio.mean - 1, law.shear.stress_ratio(i) - 1);
+      take(volume, test.shear[i].volumetric_strain.mean - start, law.shear.volumetric_strain[i]);
+    }
+    const std::vector<double> &grains = test.compression.solid_fraction;
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      take(compression, grains.front() / grains[i] - 1,
+           law.compressed_solid_fraction.front() / law.compressed_solid_fraction[i] - 1);
+  }
+}
+
+} // namespace
+
+template <class Law>
+LawCurves curves_of(const Law &law, const SandTest &test)
+{
+  LawCurves curves;
+  curves.shear = drive_triaxial(law, {test.confining_pressure, test.initial_solid_fraction()}, test.axial_strains());
+  if (test.compression.size() > 0)
+    curves.compressed_solid_fraction =
+        compress(law, test.compression.pressure, test.compression.solid_fraction.front());
+  return curves;
+}
+template LawCurves curves_of(const fe::HypoplasticSand &law, const SandTest &test);
+template LawCurves curves_of(const fe::MohrCoulomb &law, const SandTest &test);
+
+std::vector<double> differences(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves)
+{
+  std::array<double, n_kinds> squares{};
+  for_each_value(tests, curves,
+                 [&](const Kind kind, const double grains, const double) { squares[kind] += grains * grains; });
+  double n_present = 0;
+  for (const double square : squares)
+    n_present += square > 0;
+  std::vector<double> result;
+  for_each_value(tests, curves,
+                 [&](const Kind kind, const double grains, const double law)
+                 {
+                   if (squares[kind] > 0)
+                     result.push_back((law - grains) / std::sqrt(squares[kind] * n_present));
+                 });
+  return result;
+}
+
+double misfit(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves)
+{
+  double squares = 0;
+  for (const double difference : differences(tests, curves))
+    squares += difference * difference;
+  return std::sqrt(squares);
+}
+
+} // namespace bergamo::driver
