@@ -110,9 +110,11 @@ class Results(Case):
 
 
     def test_continuum_of_sand(self):
-        """Isotropic compression of hypoplastic sand, integrated apart from the program."""
+        """Isotropic compression of hypoplastic sand, integrated apart from the program. Slow and damped: small vibrations
+        take stress from it."""
         out = self.tmp / "run"
         options = ["Model/kind=continuum", "Continuum/law=hypoplastic sand", "Continuum/Sand/void ratio=0.7",
+                   "Continuum/damping=500", "Loading/isotropic time=0.02", "Loading/time step=1e-6",
                    "Loading/axial strain=0", "Loading/volumetric strain change=0"]
         result = self.run_driver(out, *[x for o in options for x in ("--set", o)])
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -125,11 +127,12 @@ class Results(Case):
         state = [-1e3, 0.7]
         for _ in range(200):
             state = sand.advance(rates, state, 0.002 / 200)
-        self.assertLess(state[0], -5e3)
+        self.assertLess(state[0], -2e3)  # twice the start
         last = history(out)[-1]
         for direction in "123":
-            # forces over the shrunken faces: 1 + 0.0013; waves are damped to below a hundredth
-            self.assertAlmostEqual(last[f"stress_{direction}_Pa"] / state[0], 1, delta=0.01)
+            # forces over the shrunken faces; inertia and damping leave some 1e-4
+            stress = last[f"stress_{direction}_Pa"] * (1 - 0.002 / 3) ** 2
+            self.assertAlmostEqual(stress / state[0], 1, delta=1e-3)
 
     def test_sand_below_grains(self):
         """Both models joined, the continuum hypoplastic sand."""
