@@ -2,6 +2,7 @@
 
 #include "drivers/fit_mohr_coulomb/sand_path.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -39,6 +40,14 @@ void for_each_value(const std::vector<SandTest> &tests, const std::vector<LawCur
   }
 }
 
+std::array<double, n_kinds> squares_of_grains(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves)
+{
+  std::array<double, n_kinds> squares{};
+  for_each_value(tests, curves,
+                 [&](const Kind kind, const double grains, const double) { squares[kind] += grains * grains; });
+  return squares;
+}
+
 } // namespace
 
 template <class Law>
@@ -56,12 +65,8 @@ template LawCurves curves_of(const fe::MohrCoulomb &law, const SandTest &test);
 
 std::vector<double> differences(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves)
 {
-  std::array<double, n_kinds> squares{};
-  for_each_value(tests, curves,
-                 [&](const Kind kind, const double grains, const double) { squares[kind] += grains * grains; });
-  double n_present = 0;
-  for (const double square : squares)
-    n_present += square > 0;
+  const std::array<double, n_kinds> squares = squares_of_grains(tests, curves);
+  const double n_present = static_cast<double>(n_kinds - std::count(squares.begin(), squares.end(), 0.));
   std::vector<double> result;
   for_each_value(tests, curves,
                  [&](const Kind kind, const double grains, const double law)
@@ -72,12 +77,18 @@ std::vector<double> differences(const std::vector<SandTest> &tests, const std::v
   return result;
 }
 
-double misfit(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves)
+Misfit misfit(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves)
 {
-  double squares = 0;
+  const std::array<double, n_kinds> squares = squares_of_grains(tests, curves);
+  std::array<double, n_kinds> off{};
+  for_each_value(tests, curves,
+                 [&](const Kind kind, const double grains, const double law)
+                 { off[kind] += (law - grains) * (law - grains); });
+  const auto relative = [&](const Kind kind) { return squares[kind] > 0 ? std::sqrt(off[kind] / squares[kind]) : 0; };
+  double sum = 0;
   for (const double difference : differences(tests, curves))
-    squares += difference * difference;
-  return std::sqrt(squares);
+    sum += difference * difference;
+  return {std::sqrt(sum), relative(ratio), relative(volume), relative(compression)};
 }
 
 } // namespace bergamo::driver

@@ -26,7 +26,12 @@ LawCurves curves_of(const Law &law, const SandTest &test);
 /// squares is 0 for the grains themselves and 1 for a body in which nothing changes.
 std::vector<double> differences(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves);
 
-/// That root: one number for the misfit of a law.
-double misfit(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves);
+/// How far a law is off, over the root of the sum of squares of the grains' values.
+struct Misfit
+{
+  double all = 0;                                                  ///< that root of all kinds: one number for a law
+  double stress_ratio = 0, volumetric_strain = 0, compression = 0; ///< of one kind alone; 0 where there is none
+};
+Misfit misfit(const std::vector<SandTest> &tests, const std::vector<LawCurves> &curves);
 
 } // namespace bergamo::driver

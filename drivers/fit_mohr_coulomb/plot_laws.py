@@ -47,7 +47,7 @@ def main():
     for axes in all_axes.flat:
         axes.margins(x=0)
     handles = [Line2D([], [], color=colour_of(i), label=f"{p / 1e3:g} kPa") for i, (p, _) in enumerate(by_pressure(shears))]
-    labels = ["grains", f"Mohr–Coulomb, misfit {misfit['mohr_coulomb']:.3f}", f"sand, misfit {misfit['sand']:.3f}"]
+    labels = ["grains", f"Mohr–Coulomb, misfit {misfit['mohr_coulomb']['all']:.3f}", f"sand, misfit {misfit['sand']['all']:.3f}"]
     handles += [Line2D([], [], color="#555555", linestyle=style, linewidth=width, alpha=strength, label=label)
                 for (_, style, width, strength), label in zip(LAWS, labels)]
     all_axes[0, -1].legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0))

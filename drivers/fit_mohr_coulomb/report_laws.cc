@@ -1,11 +1,9 @@
 #include "drivers/fit_mohr_coulomb/report_laws.h"
 
 #include "drivers/common/continuum_parameters.h"
-#include "drivers/common/number_text.h"
+#include "drivers/fit_mohr_coulomb/csv_row.h"
 
 #include <nlohmann/json.hpp>
-
-#include <initializer_list>
 
 namespace bergamo::driver
 {
@@ -14,12 +12,12 @@ namespace
 
 constexpr std::size_t n_points = 61; // of a shear
 
-std::string row_of(const std::initializer_list<double> values)
+nlohmann::ordered_json json_of(const Misfit &misfit)
 {
-  std::string row;
-  for (const double value : values)
-    row += (row.empty() ? "" : ",") + exact_text(value);
-  return row + "\n";
+  return {{"all", misfit.all},
+          {"stress_ratio", misfit.stress_ratio},
+          {"volumetric_strain", misfit.volumetric_strain},
+          {"compression", misfit.compression}};
 }
 
 } // namespace
@@ -76,7 +74,7 @@ std::string laws_json(const LawComparison &laws)
 {
   const fe::HypoplasticParameters &p = laws.sand.sand;
   nlohmann::ordered_json object;
-  object["misfit"] = {{"mohr_coulomb", laws.mohr_coulomb_misfit}, {"sand", laws.sand.misfit}};
+  object["misfit"] = {{"mohr_coulomb", json_of(laws.mohr_coulomb_misfit)}, {"sand", json_of(laws.sand.misfit)}};
   object["sand"] = {{"critical_friction_angle_deg", p.critical_friction_angle},
                     {"granulate_hardness_Pa", p.granulate_hardness},
                     {"compression_exponent", p.compression_exponent},
@@ -92,8 +90,8 @@ std::string laws_json(const LawComparison &laws)
 void add_figures(Summary &summary, const LawComparison &laws)
 {
   const fe::HypoplasticParameters &p = laws.sand.sand;
-  summary.set("misfit_mohr_coulomb", laws.mohr_coulomb_misfit);
-  summary.set("misfit_sand", laws.sand.misfit);
+  summary.set("misfit_mohr_coulomb", laws.mohr_coulomb_misfit.all);
+  summary.set("misfit_sand", laws.sand.misfit.all);
   summary.set("sand_critical_friction_angle_deg", p.critical_friction_angle, "°");
   summary.set("sand_granulate_hardness_Pa", p.granulate_hardness, "Pa");
   summary.set("sand_compression_exponent", p.compression_exponent);

@@ -16,7 +16,7 @@ struct LawComparison
   std::vector<SandTest> tests;
   SandFit sand;
   std::vector<LawCurves> mohr_coulomb; ///< of the tests
-  double mohr_coulomb_misfit;
+  Misfit mohr_coulomb_misfit;
 };
 
 /// Fits the law of sand to what the other one was fitted to. Throws ConfigError, see fit_sand().

@@ -20,39 +20,50 @@ namespace
 
 using Vector = Eigen::VectorXd;
 
-double logistic(const double x)
+/// An unknown between bounds, as a number without: its logarithm goes from one to the other by a logistic curve.
+struct Bounded
 {
-  return 1 / (1 + std::exp(-x));
-}
-double logit(const double share)
-{
-  return std::log(share / (1 - share));
-}
+  double least, most;
 
-constexpr double greatest_angle = 60; // of φ_c [degrees]
+  double number(const double value) const
+  {
+    const double share = std::clamp(std::log(value / least) / std::log(most / least), 1e-3, 1 - 1e-3);
+    return std::log(share / (1 - share));
+  }
+  double value(const double number) const { return least * std::pow(most / least, 1 / (1 + std::exp(-number))); }
+};
+
+// What sands have, and more; grains of a simulation may be far stiffer than quartz packings.
+constexpr Bounded angle{10, 60};       // φ_c [degrees]
+constexpr Bounded hardness{1e6, 1e15}; // h_s [Pa]
+constexpr Bounded exponent{0.1, 0.9};  // n
+constexpr Bounded critical{0.2, 3};    // e_c0
+constexpr Bounded pyknotropy{0.01, 1}; // α
+constexpr Bounded stiffness{0.1, 5};   // β
+constexpr Bounded densest{0.3, 0.98};  // e_d0 over e_c0
 
 /// The unknowns as numbers without bounds. The last, e_d0 over e_c0, is left out where e_d0 is given.
 Vector unknowns_of(const fe::HypoplasticParameters &sand, const SandFitParameters &given)
 {
   Vector x(given.densest_void_ratio > 0 ? 6 : 7);
-  x.head(6) << logit(sand.critical_friction_angle / greatest_angle), std::log(sand.granulate_hardness),
-      logit(sand.compression_exponent), std::log(sand.critical_void_ratio), std::log(sand.pyknotropy_exponent),
-      std::log(sand.stiffness_exponent);
+  x.head(6) << angle.number(sand.critical_friction_angle), hardness.number(sand.granulate_hardness),
+      exponent.number(sand.compression_exponent), critical.number(sand.critical_void_ratio),
+      pyknotropy.number(sand.pyknotropy_exponent), stiffness.number(sand.stiffness_exponent);
   if (x.size() == 7)
-    x[6] = logit(sand.densest_void_ratio / sand.critical_void_ratio);
+    x[6] = densest.number(sand.densest_void_ratio / sand.critical_void_ratio);
   return x;
 }
 
 fe::HypoplasticParameters sand_of(const Vector &x, const SandFitParameters &given, const double initial_void_ratio)
 {
   fe::HypoplasticParameters sand;
-  sand.critical_friction_angle = greatest_angle * logistic(x[0]);
-  sand.granulate_hardness = std::exp(x[1]);
-  sand.compression_exponent = logistic(x[2]);
-  sand.critical_void_ratio = std::exp(x[3]);
-  sand.pyknotropy_exponent = std::exp(x[4]);
-  sand.stiffness_exponent = std::exp(x[5]);
-  sand.densest_void_ratio = x.size() == 7 ? sand.critical_void_ratio * logistic(x[6]) : given.densest_void_ratio;
+  sand.critical_friction_angle = angle.value(x[0]);
+  sand.granulate_hardness = hardness.value(x[1]);
+  sand.compression_exponent = exponent.value(x[2]);
+  sand.critical_void_ratio = critical.value(x[3]);
+  sand.pyknotropy_exponent = pyknotropy.value(x[4]);
+  sand.stiffness_exponent = stiffness.value(x[5]);
+  sand.densest_void_ratio = x.size() == 7 ? sand.critical_void_ratio * densest.value(x[6]) : given.densest_void_ratio;
   sand.loosest_void_ratio = given.loosest_over_critical * sand.critical_void_ratio;
   sand.initial_void_ratio = initial_void_ratio;
   return sand;
@@ -123,18 +134,18 @@ double void_ratio_of(const double solid_fraction)
 fe::HypoplasticParameters first_guess(const std::vector<SandTest> &tests, const SandFitParameters &given)
 {
   fe::HypoplasticParameters sand;
-  double sine = 0, critical = 0, densest = std::numeric_limits<double>::infinity();
+  double sine = 0, at_the_end = 0, least = std::numeric_limits<double>::infinity();
   for (const SandTest &test : tests)
   {
     const double ratio = test.shear.back().stress_ratio.mean;
     sine += (ratio - 1) / (ratio + 1) / static_cast<double>(tests.size());
-    critical += void_ratio_of(test.shear.back().solid_fraction.mean) / static_cast<double>(tests.size());
-    densest = std::min(densest, void_ratio_of(test.initial_solid_fraction()));
+    at_the_end += void_ratio_of(test.shear.back().solid_fraction.mean) / static_cast<double>(tests.size());
+    least = std::min(least, void_ratio_of(test.initial_solid_fraction()));
   }
   sand.critical_friction_angle = std::asin(std::clamp(sine, 0.1, 0.8)) * 180 / std::numbers::pi;
-  sand.critical_void_ratio = critical;
+  sand.critical_void_ratio = at_the_end;
   sand.densest_void_ratio =
-      given.densest_void_ratio > 0 ? given.densest_void_ratio : std::min(0.9 * densest, 0.8 * critical);
+      given.densest_void_ratio > 0 ? given.densest_void_ratio : std::min(0.9 * least, 0.8 * at_the_end);
   sand.pyknotropy_exponent = 0.15;
   sand.stiffness_exponent = 1.2;
   return sand;
@@ -173,11 +184,11 @@ SandFit fit_sand(const std::vector<SandTest> &tests, const SandFitParameters &gi
   const Differences function{tests, given, initial, n_unknowns, static_cast<int>(n_values)};
 
   std::vector<std::pair<double, Vector>> starts;
-  for (const double hardness : {1e8, 1e9, 1e10, 1e11, 1e12})
-    for (const double exponent : {0.25, 0.4, 0.6})
+  for (const double h_s : {1e8, 1e9, 1e10, 1e11, 1e12})
+    for (const double n : {0.25, 0.4, 0.6})
     {
-      guess.granulate_hardness = hardness;
-      guess.compression_exponent = exponent;
+      guess.granulate_hardness = h_s;
+      guess.compression_exponent = n;
       const Vector x = unknowns_of(guess, given);
       starts.emplace_back(function.size(x), x);
     }

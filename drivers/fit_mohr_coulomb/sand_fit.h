@@ -12,8 +12,8 @@ namespace bergamo::driver
 struct SandFit
 {
   fe::HypoplasticParameters sand; ///< its void ratio at the start is the mean of the tests'
-  double misfit;                  ///< see law_misfit.h
-  std::vector<LawCurves> curves;  ///< of the tests, in their order
+  Misfit misfit;
+  std::vector<LawCurves> curves; ///< of the tests, in their order
 };
 
 /// Least squares of differences() by the method of Levenberg and Marquardt (MINPACK's, in Eigen). Unknown are φ_c, h_s,
