@@ -185,12 +185,13 @@ class Results(Case):
             line = line.split("#")[0].strip()
             if line.startswith("set "):
                 name, value = line[4:].split("=")
-                values[name.strip()] = float(value)
+                values[name.strip()] = value.strip()
         expected = {"Young's modulus": 71e6, "Poisson's ratio": POISSON, "friction angle": 26.5, "dilation angle": 4.25,
                     "cohesion": COHESION, "density": 0.67 * 2650}
+        self.assertEqual(values["law"], "Mohr-Coulomb")
         for name, value in expected.items():
-            self.assertAlmostEqual(values[name], value, delta=1e-7 * value, msg=name)
-        self.assertEqual(values["Young's modulus"], fit["continuum"]["young_modulus_Pa"])  # to the last bit
+            self.assertAlmostEqual(float(values[name]), value, delta=1e-7 * value, msg=name)
+        self.assertEqual(float(values["Young's modulus"]), fit["continuum"]["young_modulus_Pa"])  # to the last bit
         self.assertRegex(used, r"set edge += 0\.005\b")  # from the first file
 
     def test_pictures(self):

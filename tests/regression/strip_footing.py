@@ -134,7 +134,7 @@ class Sand(Case):
     """Hypoplastic sand, the ground of sand.prm coarse and fast."""
 
     COARSE = ["Ground/elements under half the footing=2", "Ground/width=2.5", "Ground/depth=1.5",
-              "Footing/loading time=1"]  # at the file's damping
+              "Footing/loading time=1", "Footing/settlement=0.05"]
     LOOSE = ["Continuum/Sand/void ratio=0.85", "Continuum/density=1430"]
 
     def sand(self, name, settings=(), *options):
