@@ -19,36 +19,51 @@ double void_ratio_of(const double solid_fraction)
   return 1 / solid_fraction - 1;
 }
 
-/// Carries a point on by the multiple of a direction at which a mean of stresses has a value.
-/// @param held held(stress): that mean [Pa], rising with the multiple; @param guess of the multiple, and the one found
-template <class Held>
-fe::SandState hold(const fe::HypoplasticSand &sand, const fe::SandState &start, fe::Strain fixed,
-                   const fe::Strain &direction, const Held &held, const double value, double &guess)
+/// A step whose strain is known but for the multiple of a direction, at which a mean of stresses has a value.
+struct Aim
 {
-  constexpr int most_searches = 50;
-  for (int search = 0; search < most_searches; ++search)
+  fe::Strain fixed, direction;
+  double (*held)(const fe::Stress &); // that mean [Pa], rising with the multiple
+  double value;                       // [Pa]
+
+  fe::Strain increment(const double multiple) const
   {
-    fe::Strain increment = fixed;
+    fe::Strain result = fixed;
     for (int i = 0; i < 6; ++i)
-      increment[i] += guess * direction[i];
-    const fe::SandUpdate next = fe::update(sand, start, increment, control);
-    if (next.status != fe::SandUpdateStatus::done)
-      break;
-    const double miss = held(next.state.stress) - value;
-    if (std::abs(miss) <= 1e-9 * std::abs(value))
-      return next.state;
-    // The tangent of the start serves: it is the derivative but for the step's own change of it.
-    const fe::Moduli moduli = sand.response(next.state).tangent(increment);
+      result[i] += multiple * direction[i];
+    return result;
+  }
+  /// Derivative of the mean by the multiple.
+  double slope(const fe::Moduli &moduli) const
+  {
     fe::Stress along{};
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j)
         along[i] += moduli[i][j] * direction[j];
-    const double slope = held(along);
+    return held(along);
+  }
+};
+
+/// Newton's steps to the multiple. @param multiple where to start, and the one found
+fe::SandState reach(const Aim &aim, const fe::HypoplasticSand &sand, const fe::SandState &start, double &multiple)
+{
+  constexpr int most_steps = 50;
+  for (int k = 0; k < most_steps; ++k)
+  {
+    const fe::Strain increment = aim.increment(multiple);
+    const fe::SandUpdate next = fe::update(sand, start, increment, control);
+    if (next.status != fe::SandUpdateStatus::done)
+      break;
+    const double miss = aim.held(next.state.stress) - aim.value;
+    if (std::abs(miss) <= 1e-9 * std::abs(aim.value))
+      return next.state;
+    // That of the end serves: it is the derivative but for what the step changes in it.
+    const double slope = aim.slope(sand.response(next.state).tangent(increment));
     if (!(slope > 0))
       break;
-    guess -= miss / slope;
+    multiple -= miss / slope;
   }
-  throw RunError("no strain holds a stress of " + std::to_string(value) +
+  throw RunError("no strain holds a stress of " + std::to_string(aim.value) +
                  " Pa on the sand; check the fitted parameters");
 }
 
@@ -75,7 +90,7 @@ TriaxialCurve drive_triaxial(const fe::HypoplasticSand &sand, const TriaxialStar
     for (int k = 0; k < n_steps && step != 0; ++k)
     {
       double lateral_strain = share * step;
-      state = hold(sand, state, {0, 0, step, 0, 0, 0}, {1, 1, 0, 0, 0, 0}, lateral, -p, lateral_strain);
+      state = reach({{0, 0, step, 0, 0, 0}, {1, 1, 0, 0, 0, 0}, lateral, -p}, sand, state, lateral_strain);
       share = lateral_strain / step;
     }
     done = to;
@@ -100,7 +115,7 @@ std::vector<double> compress(const fe::HypoplasticSand &sand, const std::span<co
     const double miss = pressure + fe::mean_stress(state.stress);
     double strain = -miss / (3 * sand.response(state).greatest_modulus());
     if (miss > 0)
-      state = hold(sand, state, {}, {1, 1, 1, 0, 0, 0}, fe::mean_stress, -pressure, strain);
+      state = reach({{}, {1, 1, 1, 0, 0, 0}, fe::mean_stress, -pressure}, sand, state, strain);
     result.push_back(1 / (1 + state.void_ratio));
   }
   return result;

@@ -243,8 +243,8 @@ def sand_history(pressure, e):
     start = before[1] + share * (state[1] - before[1])
     rows.append([len(rows), 1, 0, 0, 0, 0, *[-pressure] * 3, 1 / (1 + start), "compression"])
     # Rows close to one another at first.
-    shear = sand.triaxial(hochstetten, pressure, start, 0.002, 40, 1)
-    shear += [row for row in sand.triaxial(hochstetten, pressure, start, 0.22, 110, 3) if row[0] > 0.002]
+    shear = sand.triaxial(hochstetten, pressure, start, 0.002, (40, 1))
+    shear += [row for row in sand.triaxial(hochstetten, pressure, start, 0.22, (110, 3)) if row[0] > 0.002]
     for compression, axial, lateral, e in shear:
         height, volume = math.exp(-compression), (1 + e) / (1 + start)
         width = math.sqrt(volume / height)

@@ -118,16 +118,17 @@ def advance(rates, state, step):
     return [x + step * (a + 2 * b + 2 * c + d) / 6 for x, a, b, c, d in zip(state, k1, k2, k3, k4)]
 
 
-def oedometer(sand, start, e, compression, n_rows, n_steps):
-    """Rows (axial logarithmic compression, axial, lateral stress, e); start: axial and lateral stress [Pa]."""
+def oedometer(sand, start, e, compression, grid):
+    """Rows (axial logarithmic compression, axial, lateral stress, e); start: axial and lateral stress [Pa]; grid: how many
+    rows, and steps from row to row."""
     def rates(state):
         D = axial(-1, 0)
         T = Response(sand, axial(state[0], state[1]), state[2]).rate(D)
         return [T[2][2], T[0][0], (1 + state[2]) * trace(D)]
-    return followed(rates, [start[0], start[1], e], compression, n_rows, n_steps)
+    return followed(rates, [start[0], start[1], e], compression, grid)
 
 
-def triaxial(sand, pressure, e, compression, n_rows, n_steps):
+def triaxial(sand, pressure, e, compression, grid):
     guess = [0.2]
 
     def rates(state):
@@ -135,10 +136,11 @@ def triaxial(sand, pressure, e, compression, n_rows, n_steps):
         guess[0] = lateral_rate(sand, T, state[2], guess[0])
         D = axial(-1, guess[0])
         return [Response(sand, T, state[2]).rate(D)[2][2], 0.0, (1 + state[2]) * trace(D)]
-    return followed(rates, [-pressure, -pressure, e], compression, n_rows, n_steps)
+    return followed(rates, [-pressure, -pressure, e], compression, grid)
 
 
-def followed(rates, state, compression, n_rows, n_steps):
+def followed(rates, state, compression, grid):
+    n_rows, n_steps = grid
     rows = [(0.0, *state)]
     for row in range(1, n_rows + 1):
         for _ in range(n_steps):
@@ -194,12 +196,12 @@ def check():
 def tests(n_steps):
     """(sand, test, rows) of each; n_steps from row to row."""
     for sand, e, compression in (("hochstetten", 0.87, 0.08), ("hochstetten", 0.60, 0.03)):
-        yield sand, "oedometer", oedometer(SANDS[sand], (-20e3, -20e3), e, compression, 20, n_steps)
+        yield sand, "oedometer", oedometer(SANDS[sand], (-20e3, -20e3), e, compression, (20, n_steps))
     for sand, e, compression in (("tutorial", 0.730, 0.04), ("tutorial", 0.695, 0.04)):
-        yield sand, "oedometer", oedometer(SANDS[sand], (-25e3, -12.5e3), e, compression, 20, n_steps)
+        yield sand, "oedometer", oedometer(SANDS[sand], (-25e3, -12.5e3), e, compression, (20, n_steps))
     for sand, pressure, e, compression in (("hochstetten", 100e3, 0.85, 0.20), ("hochstetten", 100e3, 0.60, 0.20),
                                            ("tutorial", 100e3, 0.69, 0.10), ("tutorial", 300e3, 0.90, 0.10)):
-        yield sand, "triaxial", triaxial(SANDS[sand], pressure, e, compression, 20, n_steps)
+        yield sand, "triaxial", triaxial(SANDS[sand], pressure, e, compression, (20, n_steps))
 
 
 COLUMNS = ["sand", "test", "start_axial_Pa", "start_lateral_Pa", "start_void_ratio", "compression", "axial_stress_Pa",
