@@ -95,7 +95,8 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
                                        "deviatoric_stress",
                                        "yield_function",
                                        "equivalent_plastic_strain",
-                                       "elastic_energy_density"};
+                                       "elastic_energy_density",
+                                       "material_id"};
   std::vector<dealii::Vector<float>> cell_data(names.size(), dealii::Vector<float>(body.n_elements()));
   for (std::size_t e = 0; e < body.n_elements(); ++e)
   {
@@ -111,6 +112,7 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
     cell_data[11][e] = state.yield_function;
     cell_data[12][e] = state.plastic_strain;
     cell_data[13][e] = state.energy_density;
+    cell_data[14][e] = body.material_id(e);
   }
   write<3>(body, names, cell_data, path);
 }
