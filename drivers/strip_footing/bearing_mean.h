@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/common/run/state_visitor.h"
+#include "drivers/common/summary.h"
 
 #include <algorithm>
 #include <limits>
@@ -21,8 +22,13 @@ public:
   }
 
   double mean() const { return impulse_ / time_; } ///< [Pa]
-  double lowest() const { return lowest_; }        ///< [Pa]
-  double highest() const { return highest_; }      ///< [Pa]
+
+  void add_to(Summary &summary) const
+  {
+    summary.set("bearing_pressure_Pa", mean(), "Pa");
+    summary.set("bearing_pressure_lowest_Pa", lowest_, "Pa");
+    summary.set("bearing_pressure_highest_Pa", highest_, "Pa");
+  }
 
   void visit(StateVisitor &visit)
   {

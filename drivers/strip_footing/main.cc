@@ -54,6 +54,7 @@ private:
                      {"energy_plastic_loss_J", [&] { return energy.plastic_dissipation; }},
                      {"energy_viscous_loss_J", [&] { return energy.viscous_dissipation; }},
                      {"energy_stiffness_loss_J", [&] { return energy.stiffness_loss; }},
+                     {"energy_radiated_J", [&] { return energy.radiated; }},
                      {"energy_footing_work_J", [&] { return energy.boundary_work; }},
                      {"energy_gravity_work_J", [&] { return energy.gravity_work; }},
                      {"energy_surcharge_work_J", [&] { return energy.external_work; }},
@@ -89,12 +90,12 @@ int FootingRun::go()
   };
   stage.move = [&] { model.drift(); };
   const auto is_at_the_limit = [&](const Moment &now) { return now.time >= (1 - bearing_share) * end; };
-  const auto add_bearing = [&] { bearing.add(model.footing_pressure(), model.time_step()); };
   const auto times = [&](const auto n) { return either(every_time(end / std::max<double>(1, n)), at_the_end()); };
-  const auto add_picture = [&] { pictures.add(time(), pictures_of(nullptr, &model.body())); };
-  const bool is_done = run.advance(stage, {{times(parameters.output.n_samples), [&] { sample(history); }},
-                                           {is_at_the_limit, add_bearing},
-                                           {times(parameters.output.n_pictures - 1), add_picture}});
+  const bool is_done = run.advance(
+      stage,
+      {{times(parameters.output.n_samples), [&] { sample(history); }},
+       {is_at_the_limit, [&] { bearing.add(model.footing_pressure(), model.time_step()); }},
+       {times(parameters.output.n_pictures - 1), [&] { pictures.add(time(), pictures_of(nullptr, &model.body())); }}});
   return is_done ? run.finish(summary(), {"strip_footing/plot.py", "energy.py"}) : run.stop();
 }
 
@@ -122,12 +123,13 @@ Summary FootingRun::summary() const
   summary.set("elements", static_cast<std::int64_t>(model.body().n_elements()));
   summary.set("element_updates_per_second", updates / figures.wall_time_s, "1/s");
   summary.set("start_out_of_balance", model.start().residual.back());
-  summary.set("bearing_pressure_Pa", bearing.mean(), "Pa");
-  summary.set("bearing_pressure_lowest_Pa", bearing.lowest(), "Pa");
-  summary.set("bearing_pressure_highest_Pa", bearing.highest(), "Pa");
-  summary.set("limit_pressure_Pa", limit.davis, "Pa");
-  summary.set("limit_pressure_associated_Pa", limit.associated, "Pa");
-  summary.set("bearing_over_limit", bearing.mean() / limit.davis);
+  bearing.add_to(summary);
+  if (parameters.layer_depths.empty()) // the closed form is of one layer
+  {
+    summary.set("limit_pressure_Pa", limit.davis, "Pa");
+    summary.set("limit_pressure_associated_Pa", limit.associated, "Pa");
+    summary.set("bearing_over_limit", bearing.mean() / limit.davis);
+  }
   summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
   summary.set("greatest_rotation_degrees", rotation.greatest(), "degrees");
   summary.set("stiffness_loss_over_footing_work", energy.stiffness_loss / energy.boundary_work);

@@ -18,6 +18,7 @@ FootingParameters::FootingParameters()
   continuum.dilation_angle = 0;
   continuum.cohesion = 10e3;
   continuum.density = 1800;
+  deeper.fill(continuum);
   output.n_pictures = 2;
 }
 
@@ -42,8 +43,17 @@ void FootingParameters::declare(ParameterFile &file)
   file.add("Ground", "surcharge", surcharge, "on the whole surface [Pa]", Range::non_negative());
   file.add("Ground", "earth pressure at rest", earth_pressure_at_rest, "K0: horizontal over vertical stress at rest",
            Range::non_negative());
+  file.add("Ground", "far boundaries", far_boundaries,
+           "far side and bottom; quiet ones let waves leave, but give way to what presses for long",
+           {{"held", FarBoundaries::held}, {"quiet", FarBoundaries::quiet}});
+  file.add(
+      "Ground", "layer depths", layer_depths,
+      "where Layer 2, Layer 3 and Layer 4 begin, each at the next edge of elements; empty: one layer, Continuum [m]",
+      Range::positive());
 
   declare_continuum(file, continuum);
+  for (std::size_t k = 0; k < deeper.size(); ++k)
+    declare_continuum(file, deeper[k], "Layer " + std::to_string(k + 2));
   file.add("Continuum", "damping", damping, "mass-proportional [1/s]", Range::non_negative());
 
   file.add("Output", "step share", step_share, "of the stable time step", Range::strictly_between(0, 1));
@@ -53,6 +63,16 @@ void FootingParameters::declare(ParameterFile &file)
 void FootingParameters::validate() const
 {
   continuum.validate();
+  if (layer_depths.size() > deeper.size())
+    reject("Ground/layer depths has ", layer_depths.size(), " depths: there are materials for ", deeper.size(),
+           " deeper layers, Layer 2 to Layer ", deeper.size() + 1);
+  for (std::size_t k = 0; k < layer_depths.size(); ++k)
+  {
+    deeper[k].validate();
+    if (k > 0 && !(layer_depths[k] > layer_depths[k - 1]))
+      reject("Ground/layer depths: ", layer_depths[k], " m follows ", layer_depths[k - 1],
+             " m; give them from the surface downwards");
+  }
   if (ground_width < width)
     reject(
         "Ground/width is ", ground_width, " m beside a footing of ", width,

@@ -112,6 +112,44 @@ class Results(Case):
         self.assertLess(figures["start_out_of_balance"], 1e-12)
         self.assertAlmostEqual(figures["bearing_pressure_Pa"], 5e3, delta=1)
 
+    def test_layers(self):
+        """Layers of one material are the homogeneous ground; a stronger layer below bears more."""
+        settings = ["Footing/loading time=0.5", "Footing/settlement=0.02"]
+        same = [f"Layer 2/{name}" for name in ("cohesion=10e3", "Young's modulus=20e6")]
+        pressures = []
+        for name, more in (("one", []), ("equal", ["Ground/layer depths=0.3", *same]),
+                           ("strong", ["Ground/layer depths=0.3, 0.9", "Layer 2/cohesion=30e3", "Layer 3/cohesion=50e3"])):
+            figures = self.figures(name, settings + more)
+            self.assertEqual("limit_pressure_Pa" in figures, name == "one")
+            with open(self.tmp / name / "history.csv", newline="") as file:
+                pressures.append([row["footing_pressure_Pa"] for row in csv.DictReader(file)])
+        self.assertEqual(pressures[0], pressures[1])
+        self.assertGreater(float(pressures[2][-1]), 1.1 * float(pressures[0][-1]))
+
+    def test_layers_at_rest(self):
+        """Ground of layers of different weight lies still, on boundaries that hold and on quiet ones."""
+        for far in ("held", "quiet"):
+            figures = self.figures(f"rest_{far}", ["Ground/gravity=9.81", "Ground/surcharge=5e3", "Ground/layer depths=0.4, 1",
+                                                   "Layer 2/density=2300", "Layer 3/density=1500", "Footing/settlement=1e-9",
+                                                   "Footing/loading time=0.2", f"Ground/far boundaries={far}"])
+            self.assertLess(figures["start_out_of_balance"], 1e-12)
+            self.assertAlmostEqual(figures["bearing_pressure_Pa"], 5e3, delta=1)
+
+    def test_quiet_boundaries(self):
+        """A fast push sends out waves: they leave, the energies close, and a footing that stands still then stands on
+        ground that has come to rest sooner."""
+        push = ["Footing/settlement=1e-4", "Footing/loading time=0.05", "Continuum/damping=0"]
+        held, quiet = (self.figures(far, [*push, f"Ground/far boundaries={far}"]) for far in ("held", "quiet"))
+        radiated = []
+        for far in ("held", "quiet"):
+            with open(self.tmp / far / "history.csv", newline="") as file:
+                radiated.append([float(row["energy_radiated_J"]) for row in csv.DictReader(file)])
+        self.assertEqual(set(radiated[0]), {0.0})
+        self.assertGreater(radiated[1][-1], 0)
+        self.assertEqual(radiated[1], sorted(radiated[1]))
+        self.assertLess(quiet["energy_residual"], 1e-11)
+        self.assertLess(quiet["bearing_pressure_Pa"], held["bearing_pressure_Pa"])
+
     def test_threads(self):
         one, two = self.figures("one", (), "--threads", "1"), self.figures("two", (), "--threads", "2")
         self.assertEqual((self.tmp / "one" / "history.csv").read_text(), (self.tmp / "two" / "history.csv").read_text())
@@ -148,6 +186,19 @@ class Restart(Case):
         summaries = [json.loads((self.tmp / name / "summary.json").read_text()) for name in ("whole", "parts")]
         for name in ("bearing_pressure_Pa", "energy_residual", "stable_time_step_s", "time_step_s"):
             self.assertEqual(summaries[0][name], summaries[1][name])
+
+    def test_kill_with_quiet_boundaries(self):
+        """What they hold is in the snapshot: layered ground under its weight goes on as it would have."""
+        settings = ["Ground/far boundaries=quiet", "Ground/layer depths=0.5", "Layer 2/density=2200", "Ground/gravity=9.81",
+                    "Footing/loading time=0.3", "Footing/settlement=1e-3"]
+        self.figures("whole", settings)
+        parts = self.tmp / "parts"
+        has_snapshot = renewal(parts / "snapshot.h5")
+        stop_when(lambda: has_snapshot() and n_rows(parts / "history.csv") > 10,
+                  self.command(parts, settings, *SNAPSHOTS_BY_STEPS), signal.SIGKILL)
+        result = self.run_driver(parts, settings, *SNAPSHOTS_BY_STEPS, "--restart")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((parts / "history.csv").read_text(), (self.tmp / "whole" / "history.csv").read_text())
 
 
 class StaticStart(Case):
@@ -202,6 +253,13 @@ class BadInput(Case):
                             "Continuum/cohesion", "Ground/surcharge", "Ground/gravity")
         self.assert_refused(["Output/step share=1.5"], "step share", "1.5")
         self.assert_refused(["Ground/element degree=3"], "element degree", "3")
+
+    def test_layers(self):
+        self.assert_refused(["Ground/layer depths=0.5, 0.4"], "Ground/layer depths", "0.4 m follows 0.5 m")
+        self.assert_refused(["Ground/layer depths=0.2, 0.4, 0.6, 0.8"], "Ground/layer depths has 4 depths", "Layer 4")
+        self.assert_refused(["Ground/layer depths=5"], "material id 1", "no cell's centre")
+        self.assert_refused(["Ground/layer depths=0.5, 0.501"], "material is given for the id 1", "no cell")
+        self.assert_refused(["Ground/layer depths=0.5", "Layer 2/cohesion=-1"], "Layer 2", "cohesion")
 
     def test_numbers_that_overflow(self):
         """What would take more steps or elements than there are numbers is refused by the parameter's name."""
