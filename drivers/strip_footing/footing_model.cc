@@ -48,18 +48,18 @@ fe::ExplicitBody make_ground(const FootingParameters &p)
         face->set_boundary_id(footing);
 
   fe::ExplicitBodyParameters body;
-  body.layers = {{0u, fe::MohrCoulomb(p.continuum)}};
+  body.layers = {{0u, p.continuum.material()}};
   for (std::size_t k = 0; k < p.layer_depths.size(); ++k)
-    body.layers.insert({static_cast<unsigned int>(k + 1), fe::MohrCoulomb(p.deeper[k])});
+    body.layers.insert({static_cast<unsigned int>(k + 1), p.deeper[k].material()});
   body.degree = p.degree;
   body.gravity = {0, 0, -p.gravity};
   body.damping = p.damping;
   fe::GeostaticStress ground{.surface_height = 0,
-                             .unit_weight = p.continuum.density * p.gravity,
+                             .unit_weight = p.continuum.density() * p.gravity,
                              .earth_pressure_at_rest = p.earth_pressure_at_rest,
                              .surcharge = p.surcharge};
   for (std::size_t k = 0; k < p.layer_depths.size(); ++k)
-    ground.deeper.push_back({p.layer_top(k), p.deeper[k].density * p.gravity});
+    ground.deeper.push_back({p.layer_top(k), p.deeper[k].density() * p.gravity});
   if (p.gravity > 0 || p.surcharge > 0)
     body.initial_stress = fe::geostatic_stress(ground);
   return fe::ExplicitBody(mesh, body);

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "drivers/common/continuum_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
-#include "fe_dealii/material/mohr_coulomb.h"
+#include "drivers/common/summary.h"
 
 #include <algorithm>
 #include <array>
@@ -12,11 +13,15 @@
 namespace bergamo::driver
 {
 
-/// Limit pressures in closed form [Pa].
+/// Limit pressures in closed form [Pa]. Of sand, with the friction of its critical state and no dilation: what dense
+/// ground exceeds and loose ground comes near at large settlements.
 struct LimitPressure
 {
   double davis;      ///< with the strength that the flow rule leaves, see davis_strength()
   double associated; ///< as if the dilation angle were the friction angle: the same there, an upper bound else
+
+  /// @param bearing pressure that the run gave [Pa]
+  void add_figures(Summary &summary, double bearing) const;
 };
 
 /// What holds the ground where it goes on beyond the mesh: its far side and its bottom.
@@ -47,10 +52,10 @@ struct FootingParameters
 
   FarBoundaries far_boundaries = FarBoundaries::held;
 
-  fe::MohrCoulombParameters continuum;
-  std::vector<double> layer_depths;                  ///< where deeper layers begin, growing [m]
-  std::array<fe::MohrCoulombParameters, 3> deeper{}; ///< of these
-  double damping = 5;                                ///< mass-proportional [1/s]
+  ContinuumParameters continuum;
+  std::vector<double> layer_depths;            ///< where deeper layers begin, growing [m]
+  std::array<ContinuumParameters, 3> deeper{}; ///< of these
+  double damping = 5;                          ///< mass-proportional [1/s]
 
   double step_share = 0.9; ///< of the stable time step
   OutputParameters output;

@@ -32,7 +32,7 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
   mesh.subdivisions = {n, n, n_layers};
 
   fe::ExplicitBodyParameters body;
-  body.material = fe::MohrCoulomb(parameters.continuum);
+  body.material = parameters.continuum.material();
   body.damping = parameters.continuum_damping;
   body.initial_stress = fe::uniform_pressure(parameters.compression.pressure);
   return std::make_unique<fe::ExplicitBody>(fe::make_box_body(mesh, body));

@@ -20,6 +20,7 @@ struct ElementState
   double yield_function = 0; ///< of the mean stress [Pa]; 0 without a yield surface
   double plastic_strain = 0; ///< mean of the accumulated equivalent strain [-]
   double energy_density = 0; ///< elastic_energy() over the reference volume, whatever the share [J/m³]
+  double void_ratio = 0;     ///< mean [-]; 0 where the law has none
 };
 
 /// Elements of one shape and one law: strains to stresses to nodal forces. Calls are virtual by blocks of elements.

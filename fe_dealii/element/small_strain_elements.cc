@@ -46,6 +46,8 @@ ElementState SmallStrainElements<Law>::state_of(const std::size_t element, const
     for (int i = 0; i < 6; ++i)
       state.stress[i] += sum(fraction * history.stress[i]);
     state.plastic_strain += sum(fraction * history.plastic_strain);
+    if constexpr (std::is_same_v<Law, HypoplasticSand>)
+      state.void_ratio += sum(fraction * history.void_ratio);
   }
   for (int point = 0; point < points_per_pack * n_packs_; ++point)
     state.energy_density +=
@@ -138,7 +140,7 @@ void SmallStrainElements<Law>::tangent_moduli(const std::size_t element, const i
     const Moduli at_point = [&]
     {
       if constexpr (std::is_same_v<Law, HypoplasticSand>)
-        return law_.tangent(sand_state(point_history(element, pack), point), increment);
+        return consistent_tangent(law_, sand_state(point_history(element, pack), point), increment);
       else
         return law_.tangent(stress(element, points_per_pack * pack + point), increment);
     }();

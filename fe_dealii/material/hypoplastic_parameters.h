@@ -4,7 +4,7 @@ namespace bergamo::fe
 {
 
 /// Parameters of a sand in hypoplasticity. The first eight are von Wolffersdorff's (Mech. Cohes.-Frict. Mater. 1 (1996)
-/// 251-271); the defaults are those of a quartz sand about as his from Hochstetten, and not taken from his table. Herle
+/// 251-271); the defaults are those of Hochstetten sand as Niemunis and Herle (ibid. 2 (1997) 279-299) use them. Herle
 /// and Gudehus (ibid. 4 (1999) 461-486) say how to find them, and list sands.
 struct HypoplasticParameters
 {

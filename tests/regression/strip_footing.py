@@ -168,6 +168,77 @@ class Results(Case):
             self.assertTrue((out / "plots" / "strip_footing.png").exists(), result.stderr)
 
 
+class Sand(Case):
+    """Hypoplastic sand, the ground of sand.prm coarse and fast."""
+
+    COARSE = ["Ground/elements under half the footing=2", "Ground/width=2.5", "Ground/depth=1.5",
+              "Footing/loading time=1"]  # at the file's damping
+    LOOSE = ["Continuum/Sand/void ratio=0.85", "Continuum/density=1430"]
+
+    def sand(self, name, settings=(), *options):
+        return self.figures(name, [*self.COARSE, *settings], *options, file=FOLDER / "sand.prm")
+
+    def test_density(self):
+        """Dense sand bears several times what loose sand does, and more than the critical friction of both would; the
+        energies close although it stores none, and the ground starts as it lies."""
+        dense, loose = self.sand("dense"), self.sand("loose", self.LOOSE)
+        for figures in (dense, loose):
+            self.assertLess(figures["start_out_of_balance"], 1e-9)
+            self.assertLess(figures["energy_residual"], 1e-11)
+            self.assertLess(figures["kinetic_energy_over_footing_work"], 0.01)
+            self.assertNotIn("kinetic_over_elastic_energy", figures)
+        # q Nq + gamma B Ngamma/2 of the critical friction, 33 degrees, by Davis' reduction 28.6: as gamma, but for q Nq.
+        self.assertAlmostEqual(loose["limit_pressure_Pa"] / dense["limit_pressure_Pa"], 1430 / 1656, delta=0.05)
+        self.assertGreater(dense["peak_pressure_Pa"], 3 * loose["peak_pressure_Pa"])
+        self.assertGreater(dense["peak_pressure_Pa"], dense["limit_pressure_associated_Pa"])
+        self.assertLess(loose["peak_pressure_Pa"], loose["limit_pressure_Pa"])
+        # Loose sand has no peak.
+        self.assertGreater(loose["peak_settlement_m"], 0.0495)
+
+    def test_vibration(self):
+        """Damped enough, neither rate nor damping matter; the law would lose stress to small vibrations."""
+        slow = self.sand("slow", [*self.LOOSE, "Footing/loading time=2", "Continuum/damping=100"])
+        fast = self.sand("fast", self.LOOSE)
+        self.assertAlmostEqual(slow["bearing_pressure_Pa"] / fast["bearing_pressure_Pa"], 1, delta=0.05)
+        faint = self.sand("faint", [*self.LOOSE, "Continuum/damping=1"])
+        self.assertLess(faint["bearing_pressure_Pa"], 0.95 * fast["bearing_pressure_Pa"])
+
+    def test_threads(self):
+        for threads in ("1", "2"):
+            self.sand(f"on_{threads}", ["Footing/loading time=0.1", "Footing/settlement=0.01"], "--threads", threads)
+        self.assertEqual((self.tmp / "on_1" / "history.csv").read_text(), (self.tmp / "on_2" / "history.csv").read_text())
+
+    def test_restart(self):
+        """Killed in the middle: stresses and void ratios go on with the same bits."""
+        settings = [*self.COARSE, "Footing/loading time=0.3", "Footing/settlement=0.03"]
+        file = FOLDER / "sand.prm"
+        self.figures("whole", settings, file=file)
+        parts = self.tmp / "parts"
+        has_snapshot = renewal(parts / "snapshot.h5")
+        stop_when(lambda: has_snapshot() and n_rows(parts / "history.csv") > 10,
+                  self.command(parts, settings, *SNAPSHOTS_BY_STEPS, file=file))
+        result = self.run_driver(parts, settings, *SNAPSHOTS_BY_STEPS, "--restart", file=file)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((parts / "history.csv").read_text(), (self.tmp / "whole" / "history.csv").read_text())
+
+    def test_bad_input(self):
+        for setting, words in {
+                "Continuum/Sand/void ratio=0.4": ("initial_void_ratio = 0.4", "e_d ="),
+                "Continuum/Sand/void ratio=1.04": ("initial_void_ratio = 1.04", "e_i ="),
+                "Continuum/Sand/least pressure=5e3": ("Continuum/Sand/least pressure is 5000", "Ground/surcharge"),
+                "Continuum/Sand/critical void ratio=0.5": ("critical_void_ratio = 0.5", "densest"),
+                "Continuum/law=sand": ("Continuum/law", "hypoplastic sand"),
+                "Continuum/Sand/compression exponent=1.2": ("compression exponent", "1.2")}.items():
+            with self.subTest(setting):
+                out = self.tmp / "refused"
+                result = self.run_driver(out, [*self.COARSE, setting], file=FOLDER / "sand.prm")
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
+                for word in words:
+                    self.assertIn(word, result.stderr)
+                self.assertFalse(out.exists())
+
+
 class Restart(Case):
     def test_kill(self):
         """Killed, and stopped by Ctrl-C: what it gives in the end is the same to the last bit, the step that follows the

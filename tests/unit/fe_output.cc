@@ -11,6 +11,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -170,4 +171,39 @@ TEST_CASE("the material ids of the mesh are in the file", "[fe]")
       middle += points[3 * (8 * cell + k) + 2] / 8;
     CHECK(id[8 * cell] == (middle > 1 && middle < 2 ? 9 : 0));
   }
+}
+
+TEST_CASE("the void ratio of sand is in the file, cell by cell, and no other law's", "[fe]")
+{
+  ExplicitBodyParameters parameters;
+  HypoplasticParameters sand;
+  sand.initial_void_ratio = 0.7;
+  parameters.material = HypoplasticSand(sand);
+  parameters.degree = GENERATE(1u, 2u);
+  parameters.initial_stress = uniform_pressure(50e3);
+  ExplicitBody body = make_box_body({{0, 0, 0}, {1, 1, 2}, {1, 1, 2}}, parameters);
+  // Both elements shrink along x, the upper one more.
+  for (std::size_t node = 0; node < body.n_nodes(); ++node)
+  {
+    const auto &place = body.node_position()[node];
+    body.displacement()[3 * node] = -1e-3 * place[0] * std::max(0., place[2] - 1);
+  }
+  body.compute_internal_force();
+  const TemporaryFolder folder;
+  write_vtu(body, folder / "body.vtu");
+  const VtuReader file(folder / "body.vtu");
+  const std::vector<double> void_ratio = file.array("void_ratio"), pressure = file.array("pressure");
+  const std::size_t n = parameters.degree == 1 ? 8 : 27;
+  REQUIRE(void_ratio.size() == 2 * n);
+  for (std::size_t cell = 0; cell < 2; ++cell)
+  {
+    CHECK(void_ratio[n * cell] == Approx(body.state_of(cell).void_ratio).epsilon(rounding));
+    CHECK(pressure[n * cell] == Approx(-mean_stress(body.state_of(cell).stress)).epsilon(rounding));
+  }
+  const double least = std::min(void_ratio[0], void_ratio[n]), most = std::max(void_ratio[0], void_ratio[n]);
+  CHECK(most == Approx(0.7).epsilon(rounding));
+  CHECK(0.7 - least == Approx(1.7 * 0.5e-3).epsilon(1e-3)); // (1 + e) tr ε, to its square
+
+  write_vtu(block(1), folder / "other.vtu");
+  CHECK_THROWS(VtuReader(folder / "other.vtu").array("void_ratio"));
 }
