@@ -333,8 +333,8 @@ TEST_CASE("reflection over the angle, as a table", "[.][angles]")
       if (degrees >= 15 && degrees <= 70)
       {
         const Packet packet(angle, is_s);
-        std::cout << " packet " << packet.reflected_energy() << " found " << measured_energy(packet, 16) << ' '
-                  << measured_energy(packet, 32);
+        std::cout << " packet " << packet.reflected_energy() << " found " << measured_energy(packet, 8) << ' '
+                  << measured_energy(packet, 16);
       }
       std::cout << std::endl;
     }
