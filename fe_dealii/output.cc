@@ -96,8 +96,11 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
                                  "deviatoric_stress",
                                  "yield_function",
                                  "equivalent_plastic_strain",
-                                 "elastic_energy_density"};
-  const bool has_voids = std::holds_alternative<HypoplasticSand>(body.material());
+                                 "elastic_energy_density",
+                                 "material_id"};
+  bool has_voids = false;
+  for (std::size_t e = 0; e < body.n_elements(); ++e)
+    has_voids = has_voids || std::holds_alternative<HypoplasticSand>(body.material(e));
   if (has_voids)
     names.push_back("void_ratio");
   std::vector<dealii::Vector<float>> cell_data(names.size(), dealii::Vector<float>(body.n_elements()));
@@ -115,8 +118,9 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
     cell_data[11][e] = state.yield_function;
     cell_data[12][e] = state.plastic_strain;
     cell_data[13][e] = state.energy_density;
+    cell_data[14][e] = body.material_id(e);
     if (has_voids)
-      cell_data[14][e] = state.void_ratio;
+      cell_data[15][e] = state.void_ratio;
   }
   write<3>(body, names, cell_data, path);
 }

@@ -7,27 +7,26 @@ namespace bergamo::driver
 namespace
 {
 
-void declare_mohr_coulomb(ParameterFile &file, fe::MohrCoulombParameters &continuum)
+void declare_mohr_coulomb(ParameterFile &file, const std::string &section, fe::MohrCoulombParameters &continuum)
 {
-  file.add("Continuum", "Young's modulus", continuum.young_modulus, "[Pa]", Range::positive());
-  file.add("Continuum", "Poisson's ratio", continuum.poisson_ratio, "",
+  file.add(section, "Young's modulus", continuum.young_modulus, "[Pa]", Range::positive());
+  file.add(section, "Poisson's ratio", continuum.poisson_ratio, "",
            {.lowest = 0, .highest = 0.5, .highest_included = false});
-  file.add("Continuum", "friction angle", continuum.friction_angle, "[degree]",
+  file.add(section, "friction angle", continuum.friction_angle, "[degree]",
            {.lowest = 0, .highest = 90, .highest_included = false});
-  file.add("Continuum", "dilation angle", continuum.dilation_angle, "at most the friction angle [degree]",
+  file.add(section, "dilation angle", continuum.dilation_angle, "at most the friction angle [degree]",
            {.lowest = 0, .highest = 90, .highest_included = false});
-  file.add("Continuum", "cohesion", continuum.cohesion, "[Pa]", Range::non_negative());
-  file.add("Continuum", "reference pressure", continuum.reference_pressure,
+  file.add(section, "cohesion", continuum.cohesion, "[Pa]", Range::non_negative());
+  file.add(section, "reference pressure", continuum.reference_pressure,
            "at which Young's modulus holds; 0: it holds at any pressure [Pa]", Range::non_negative());
-  file.add("Continuum", "stiffness exponent", continuum.stiffness_exponent,
+  file.add(section, "stiffness exponent", continuum.stiffness_exponent,
            "the modulus grows as (pressure / reference pressure) to this power", Range::between(0, 1));
-  file.add("Continuum", "density", continuum.density, "of the bulk: grains and voids, by either law [kg/m3]",
+  file.add(section, "density", continuum.density, "of the bulk: grains and voids, by either law [kg/m3]",
            Range::positive());
 }
 
-void declare_sand(ParameterFile &file, fe::HypoplasticParameters &sand)
+void declare_sand(ParameterFile &file, const std::string &section, fe::HypoplasticParameters &sand)
 {
-  const std::string section = "Continuum/Sand";
   file.add(section, "critical friction angle", sand.critical_friction_angle, "phi_c, of steady flow [degree]",
            Range::strictly_between(0, 90));
   file.add(section, "granulate hardness", sand.granulate_hardness, "h_s of Bauer's law of compression [Pa]",
@@ -50,14 +49,14 @@ void declare_sand(ParameterFile &file, fe::HypoplasticParameters &sand)
 
 } // namespace
 
-void ContinuumParameters::declare(ParameterFile &file)
+void ContinuumParameters::declare(ParameterFile &file, const std::string &section)
 {
   file.add(
-      "Continuum", "law", law,
+      section, "law", law,
       "Mohr-Coulomb, or hypoplasticity after von Wolffersdorff, which takes the section Sand and the density alone",
       {{"Mohr-Coulomb", ContinuumLaw::mohr_coulomb}, {"hypoplastic sand", ContinuumLaw::hypoplastic_sand}});
-  declare_mohr_coulomb(file, mohr_coulomb);
-  declare_sand(file, sand);
+  declare_mohr_coulomb(file, section, mohr_coulomb);
+  declare_sand(file, section + "/Sand", sand);
 }
 
 void ContinuumParameters::validate() const

@@ -3,6 +3,8 @@
 #include "drivers/common/parameter_file.h"
 #include "fe_dealii/material/material.h"
 
+#include <string>
+
 namespace bergamo::driver
 {
 
@@ -19,8 +21,9 @@ struct ContinuumParameters
   fe::MohrCoulombParameters mohr_coulomb; ///< its density is that of either law
   fe::HypoplasticParameters sand;
 
-  /// Binds them to the section "Continuum": one place for its names, so that what one driver writes another one reads.
-  void declare(ParameterFile &file);
+  /// Binds them to a section, "Continuum" or that of another layer: one place for its names, so that what one driver
+  /// writes another one reads.
+  void declare(ParameterFile &file, const std::string &section = "Continuum");
 
   /// Throws ConfigError for what the law that is chosen does not allow.
   void validate() const;

@@ -54,6 +54,7 @@ private:
                      {"energy_plastic_loss_J", [&] { return energy.plastic_dissipation; }},
                      {"energy_viscous_loss_J", [&] { return energy.viscous_dissipation; }},
                      {"energy_stiffness_loss_J", [&] { return energy.stiffness_loss; }},
+                     {"energy_radiated_J", [&] { return energy.radiated; }},
                      {"energy_footing_work_J", [&] { return energy.boundary_work; }},
                      {"energy_gravity_work_J", [&] { return energy.gravity_work; }},
                      {"energy_surcharge_work_J", [&] { return energy.external_work; }},
@@ -111,7 +112,6 @@ void FootingRun::sample(History &history)
 
 Summary FootingRun::summary() const
 {
-  const LimitPressure limit = parameters.limit_pressure();
   RunFigures figures = run.figures(0);
   figures.steps = run.loop().step();
   figures.time_step_s = model.steps().smallest_step();
@@ -125,9 +125,8 @@ Summary FootingRun::summary() const
   summary.set("element_updates_per_second", updates / figures.wall_time_s, "1/s");
   summary.set("start_out_of_balance", model.start().residual.back());
   bearing.add_figures(summary);
-  summary.set("limit_pressure_Pa", limit.davis, "Pa");
-  summary.set("limit_pressure_associated_Pa", limit.associated, "Pa");
-  summary.set("bearing_over_limit", bearing.mean() / limit.davis);
+  if (parameters.layer_depths.empty()) // the closed form is of one layer
+    parameters.limit_pressure().add_figures(summary, bearing.mean());
   if (!parameters.continuum.is_sand()) // which stores no energy
     summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
   summary.set("kinetic_energy_over_footing_work", energy.kinetic / energy.boundary_work);

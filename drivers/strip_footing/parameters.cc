@@ -18,6 +18,7 @@ FootingParameters::FootingParameters()
                             .dilation_angle = 0,
                             .cohesion = 10e3,
                             .density = 1800};
+  deeper.fill(continuum);
   output.n_pictures = 2;
 }
 
@@ -42,8 +43,17 @@ void FootingParameters::declare(ParameterFile &file)
   file.add("Ground", "surcharge", surcharge, "on the whole surface [Pa]", Range::non_negative());
   file.add("Ground", "earth pressure at rest", earth_pressure_at_rest, "K0: horizontal over vertical stress at rest",
            Range::non_negative());
+  file.add("Ground", "far boundaries", far_boundaries,
+           "far side and bottom; quiet ones let waves leave, but give way to what presses for long",
+           {{"held", FarBoundaries::held}, {"quiet", FarBoundaries::quiet}});
+  file.add(
+      "Ground", "layer depths", layer_depths,
+      "where Layer 2, Layer 3 and Layer 4 begin, each at the next edge of elements; empty: one layer, Continuum [m]",
+      Range::positive());
 
   continuum.declare(file);
+  for (std::size_t k = 0; k < deeper.size(); ++k)
+    deeper[k].declare(file, "Layer " + std::to_string(k + 2));
   file.add("Continuum", "damping", damping, "mass-proportional [1/s]", Range::non_negative());
 
   file.add("Output", "step share", step_share, "of the stable time step", Range::strictly_between(0, 1));
@@ -53,6 +63,16 @@ void FootingParameters::declare(ParameterFile &file)
 void FootingParameters::validate() const
 {
   continuum.validate();
+  if (layer_depths.size() > deeper.size())
+    reject("Ground/layer depths has ", layer_depths.size(), " depths: there are materials for ", deeper.size(),
+           " deeper layers, Layer 2 to Layer ", deeper.size() + 1);
+  for (std::size_t k = 0; k < layer_depths.size(); ++k)
+  {
+    deeper[k].validate();
+    if (k > 0 && !(layer_depths[k] > layer_depths[k - 1]))
+      reject("Ground/layer depths: ", layer_depths[k], " m follows ", layer_depths[k - 1],
+             " m; give them from the surface downwards");
+  }
   if (ground_width < width)
     reject(
         "Ground/width is ", ground_width, " m beside a footing of ", width,
@@ -76,6 +96,13 @@ void FootingParameters::validate() const
   if (settlement > 0.2 * width)
     reject("Footing/settlement is ", settlement, " m: strains are small up to about a fifth of Footing/width, ",
            0.2 * width, " m");
+}
+
+void LimitPressure::add_figures(Summary &summary, const double bearing) const
+{
+  summary.set("limit_pressure_Pa", davis, "Pa");
+  summary.set("limit_pressure_associated_Pa", associated, "Pa");
+  summary.set("bearing_over_limit", bearing / davis);
 }
 
 LimitPressure FootingParameters::limit_pressure() const

@@ -47,7 +47,7 @@ public:
   /// Whether an element moves as a rigid body: it has no forces then, its stress and energy stay, and it sets no stable
   /// step. Elements of small strain would resist a rotation.
   bool is_rigid(const std::size_t element) const { return !rigid.empty() && rigid[element] != 0; }
-  void make_rigid(const std::size_t element)
+  virtual void make_rigid(const std::size_t element)
   {
     rigid.resize(size(), 0);
     rigid[element] = 1;

@@ -56,6 +56,8 @@ TangentSystem::TangentSystem(const ExplicitBody &body, const std::size_t direct_
                    "of the program");
   const std::size_t n_dofs = 3 * body.n_nodes();
   trilinos->is_direct = n_dofs <= direct_limit;
+  for (std::size_t e = 0; e < body.n_elements(); ++e)
+    flow_is_associated_ = flow_is_associated_ && flow_is_associated(body.material(e));
   dealii::DynamicSparsityPattern pattern(n_dofs, n_dofs);
   std::vector<unsigned int> columns;
   for (std::size_t e = 0; e < body.n_elements(); ++e)
@@ -135,7 +137,7 @@ void TangentSystem::assemble_tangent(const double *displacement, const double *b
   trilinos->assemble(
       body, [&](const std::size_t e, double *matrix) { body.elements().tangent(e, displacement, before, matrix); },
       moved, pull);
-  trilinos->is_symmetric = flow_is_associated(body.material());
+  trilinos->is_symmetric = flow_is_associated_;
 }
 
 void TangentSystem::Trilinos::precondition(const ExplicitBody &body)

@@ -109,6 +109,17 @@ class Results(Case):
                                    delta=0.003 * bulk_modulus * 0.002)
 
 
+    def test_rotation(self):
+        """Weak ground that grains press into: its elements turn, which is told, and warned of beyond five degrees."""
+        out = self.tmp / "run"
+        options = ["Continuum/friction angle=1", "Continuum/dilation angle=0",
+                   "Continuum/cohesion=10", "Loading/axial strain=-0.1", "Loading/shear time=0.004"]
+        result = self.run_driver(out, *[x for o in options for x in ("--set", o)])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rotation = json.loads((out / "summary.json").read_text())["greatest_rotation_degrees"]
+        self.assertGreater(rotation, 1)
+        self.assertEqual("turned by" in result.stderr, rotation > 5, result.stderr)
+
     def test_continuum_of_sand(self):
         """Isotropic compression of hypoplastic sand, integrated apart from the program. Slow and damped: small vibrations
         take stress from it."""

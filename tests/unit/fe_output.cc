@@ -2,9 +2,12 @@
 
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
+#include "fe_dealii/mesh/material_box.h"
 #include "fe_dealii/output.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/fe_vtu_reader.h"
+
+#include <deal.II/grid/tria.h>
 
 #include <catch2/catch.hpp>
 
@@ -145,6 +148,28 @@ TEST_CASE("stresses and what follows from them are in the file, cell by cell", "
     const double bulk = 2e6 / 1.5, shear = 2e6 / 2.5;
     CHECK(value("elastic_energy_density") == Approx(p * p / (2 * bulk) + j2 / (2 * shear)).epsilon(rounding));
     CHECK(value("equivalent_plastic_strain") == 0);
+    CHECK(value("material_id") == 0);
+  }
+}
+
+TEST_CASE("the material ids of the mesh are in the file", "[fe]")
+{
+  dealii::Triangulation<3> mesh;
+  make_box({{0, 0, 0}, {1, 1, 3}, {1, 1, 3}}, mesh);
+  set_material({{0, 0, 1}, {1, 1, 2}, 9}, mesh);
+  ExplicitBodyParameters parameters;
+  parameters.layers = {{0, LinearElastic(ElasticParameters{})}, {9, LinearElastic(ElasticParameters{})}};
+  const TemporaryFolder folder;
+  write_vtu(ExplicitBody(mesh, parameters), folder / "body.vtu");
+  const VtuReader file(folder / "body.vtu");
+  const std::vector<double> points = file.points(), id = file.array("material_id");
+  REQUIRE(id.size() == 24);
+  for (std::size_t cell = 0; cell < 3; ++cell)
+  {
+    double middle = 0;
+    for (std::size_t k = 0; k < 8; ++k)
+      middle += points[3 * (8 * cell + k) + 2] / 8;
+    CHECK(id[8 * cell] == (middle > 1 && middle < 2 ? 9 : 0));
   }
 }
 
