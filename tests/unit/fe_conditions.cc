@@ -259,6 +259,29 @@ TEST_CASE("a free rigid body alone spins by Euler's equations and flies by Newto
   CHECK(drift[1] < 0.3 * drift[0]); // second order
 }
 
+TEST_CASE("a rigid body beside its nodes turns about the centre of both, with the inertia of both", "[fe]")
+{
+  ExplicitBody body = block();
+  const auto nodes = body.boundary_nodes(5);
+  double of_nodes = 0;
+  for (const unsigned int node : nodes)
+    of_nodes += body.mass()[3 * node];
+  const RigidBodyParameters own{.mass = 2 * of_nodes, .centre = {0.5, 2.5, 4}, .inertia = {300, 200, 100}};
+  RigidBoundary plate(body, nodes, own);
+  const Vector centre{0.5, (1 + 2 * 2.5) / 3, (3 + 2 * 4.) / 3}; // of the nodes' centre (0.5, 1, 3) and twice its own
+  const auto about_x = [&](const double mass, const Vector &place)
+  { return mass * (std::pow(place[1] - centre[1], 2) + std::pow(place[2] - centre[2], 2)); };
+  double inertia = own.inertia[0] + about_x(own.mass, own.centre);
+  for (const unsigned int node : nodes)
+    inertia += about_x(body.mass()[3 * node], body.node_position()[node]);
+  CHECK(plate.mass() == Approx(3 * of_nodes));
+  for (int i = 0; i < 3; ++i)
+    CHECK(plate.centre()[i] == Approx(centre[i]));
+  constexpr double dt = 1e-6, moment = 50;
+  plate.move({}, {moment, 0, 0}, dt);
+  CHECK(plate.angular_velocity()[0] == Approx(moment * dt / inertia).epsilon(1e-9));
+}
+
 TEST_CASE("a rigid body on a block: energy is kept and a static load is carried", "[fe]")
 {
   ExplicitBody body = block({2, 3, 4}, GENERATE(0., 60.));

@@ -305,5 +305,6 @@ TEST_CASE("layers that do not fit the mesh are refused by their ids", "[fe]")
   make_box({}, box);
   CHECK_THROWS_WITH(set_material({{2, 0, 0}, {3, 1, 1}, 5}, box),
                     Contains("material id 5") && Contains("(2, 0, 0) to (3, 1, 1)") && Contains("no cell's centre"));
+  CHECK_THROWS_WITH(set_material({{0, -2, 0}, {1, -1, 1}, 5}, box), Contains("no cell's centre"));
   CHECK_THROWS_WITH(set_material({{0, 1, 0}, {1, 1, 1}, 5}, box), Contains("along y") && Contains("from 1 to 1"));
 }
