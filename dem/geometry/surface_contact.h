@@ -1,0 +1,65 @@
+#pragma once
+
+#include "dem/geometry/contact_geometry.h"
+#include "dem/geometry/surface_topology.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+/// Where a convex body touches a surface of triangles.
+///
+/// Face, edge and vertex are features of one surface. At each a body may have a place with a common normal c: it lies
+/// in the feature's cone of normals, and the body's deepest point against c lies above the feature. On an infinite
+/// plane there is one; if that is bent anywhere in any way, places come and go in pairs of opposite index, because
+/// their sum is the degree of a map (as in Morse theory: Milnor 1963). So places at convex edges count +1, those at
+/// concave ones -1:
+///  * a body that goes over a convex edge goes from the place on a face to that on the edge to that on the next face;
+///  * before the second of two faces that meet in a concave edge is touched, or while it is, nothing jumps: where the
+///    bend is slight, both faces and the edge are touched, 1 + 1 - 1, the energy of the union of two half-spaces as
+///    that of both less that of their intersection; where it is not, the edge is not reached and there are two
+///    contacts;
+///  * triangles in one plane are one plane, whatever their edges.
+/// The energy sum of index times energy of the place is a continuous function of the body's placement, and the forces
+/// are its derivatives. No distance or angle is tuned. Indices come from the signs of few numbers that neighbours
+/// share, so they add up whatever the rounding.
+namespace bergamo::dem
+{
+
+enum class Feature : std::uint8_t
+{
+  face,
+  edge,
+  vertex
+};
+
+/// A place where a body touches a surface.
+struct SurfacePlace
+{
+  Feature feature;
+  std::int32_t number; ///< of the face, edge or node
+  int index;           ///< how often it counts: 1 on faces and where the surface is convex
+  Vec3 normal;         ///< unit, from the surface to the body
+  double overlap;      ///< along the normal, > 0 [m]
+  Vec3 arm;            ///< deepest point of the body minus its centre [m]
+};
+
+/// Deeper than this share of its smallest half-axis a body touches nothing: features on its far side are that deep.
+inline constexpr double deepest_overlap = 0.5;
+
+/// A surface at one moment.
+struct SurfaceView
+{
+  const SurfaceTopology &topology;
+  std::span<const Vec3> node; ///< places [m]
+};
+
+/// All places at which a body touches. A body whose centre is behind a feature does not touch it.
+/// @param faces that may be touched, in any order, each once: those within the body's reach
+std::vector<SurfacePlace> find_surface_places(const BodyPose &body, const SurfaceView &surface,
+                                              std::span<const std::int32_t> faces);
+
+/// Sum of the indices of all places on all features, touched or not: 1 above a surface without holes.
+int sum_of_indices(const BodyPose &body, const SurfaceView &surface);
+
+} // namespace bergamo::dem
