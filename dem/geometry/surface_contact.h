@@ -3,7 +3,10 @@
 #include "dem/geometry/contact_geometry.h"
 #include "dem/geometry/surface_topology.h"
 
+#include <array>
 #include <cstdint>
+#include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,7 +57,73 @@ struct SurfaceView
   std::span<const Vec3> node; ///< places [m]
 };
 
-/// All places at which a body touches. A body whose centre is behind a feature does not touch it.
+/// A surface as one body sees it; what was looked at is remembered.
+class SurfaceLook
+{
+public:
+  /// By reference.
+  SurfaceLook(const BodyPose &body, const SurfaceView &surface) : body(body), surface(surface) {}
+
+  /// The place at a feature, if the body touches it there: its centre is in front, and it is not as deep as that.
+  std::optional<SurfacePlace> place_at(Feature feature, std::int32_t number);
+
+  /// Index of the place at a feature, whether touched or not; 0 where there is none.
+  int index_of(Feature feature, std::int32_t number);
+
+  /// A lower bound of the distance between body and feature, as a closed set of points; <= 0 says nothing [m].
+  double least_gap(Feature feature, std::int32_t number);
+
+  /// Distance of the deepest point against a face from the lines of its edges, > 0 inside [m].
+  double distance_to_edges(std::int32_t face);
+
+private:
+  /// Where the body is deepest along a normal.
+  struct Foot
+  {
+    Vec3 normal;
+    Vec3 arm;       ///< deepest point minus the body's centre [m]
+    double overlap; ///< [m]
+  };
+
+  /// Deepest against the plane of a face.
+  struct FaceFoot
+  {
+    std::int32_t face;
+    Foot foot;
+    std::array<double, 3> inside; ///< distance from the lines of the edges, > 0 on the face's side [m]
+    std::array<bool, 3> is_inside;
+  };
+
+  /// Deepest at the line of an edge.
+  struct EdgeFoot
+  {
+    std::int32_t edge;
+    Foot foot;
+    bool is_beyond_from, is_beyond_to; ///< on the edge's side of its nodes
+  };
+
+  const FaceFoot &on_face(std::int32_t face);
+  const EdgeFoot &on_edge(std::int32_t edge);
+  FaceFoot look_at_face(std::int32_t face) const;
+  EdgeFoot look_at_edge(std::int32_t edge);
+  Foot foot_on_vertex(std::int32_t node);
+  Foot foot_at(const Vec3 &point, const Vec3 &guess, const Vec3 *along) const;
+  Foot foot_against(const Vec3 &normal, const Vec3 &point) const;
+  bool is_inside(std::int32_t face, std::int32_t edge);
+  bool is_beyond(std::int32_t edge, std::int32_t node);
+  int index_of_face(std::int32_t face);
+  int index_of_line(std::int32_t edge);
+  int index_of_edge(std::int32_t edge);
+  int index_of_vertex(std::int32_t node);
+  double gap_along(const Vec3 &normal, std::span<const std::int32_t> nodes) const;
+
+  const BodyPose &body;
+  const SurfaceView &surface;
+  std::deque<FaceFoot> faces; // few: found by looking through them
+  std::deque<EdgeFoot> edges;
+};
+
+/// All places at which a body touches.
 /// @param faces that may be touched, in any order, each once: those within the body's reach
 std::vector<SurfacePlace> find_surface_places(const BodyPose &body, const SurfaceView &surface,
                                               std::span<const std::int32_t> faces);

@@ -22,7 +22,20 @@ SurfaceTopology::SurfaceTopology(std::vector<Triangle> triangles, const std::siz
         reject("triangle ", f, " names node ", node, " twice: remove it from the surface");
     }
   find_edges();
-  list_around_nodes(n_nodes);
+  corners = Rows<Corner>(n_nodes,
+                         [&](const auto &put)
+                         {
+                           for (std::size_t f = 0; f < n_faces(); ++f)
+                             for (int k = 0; k < 3; ++k)
+                               put(triangle[f][k], {static_cast<std::int32_t>(f), k});
+                         });
+  edges_around = Rows<std::int32_t>(n_nodes,
+                                    [&](const auto &put)
+                                    {
+                                      for (std::size_t e = 0; e < n_edges(); ++e)
+                                        for (const std::int32_t node : {edge[e].from, edge[e].to})
+                                          put(node, static_cast<std::int32_t>(e));
+                                    });
   check_fans();
 }
 
@@ -57,32 +70,13 @@ void SurfaceTopology::find_edges()
     }
 }
 
-void SurfaceTopology::list_around_nodes(const std::size_t n_nodes)
-{
-  std::vector<std::vector<Corner>> corners(n_nodes);
-  std::vector<std::vector<std::int32_t>> edges(n_nodes);
-  for (std::size_t f = 0; f < n_faces(); ++f)
-    for (int k = 0; k < 3; ++k)
-      corners[triangle[f][k]].push_back({static_cast<std::int32_t>(f), k});
-  for (std::size_t e = 0; e < n_edges(); ++e)
-    for (const std::int32_t node : {edge[e].from, edge[e].to})
-      edges[node].push_back(static_cast<std::int32_t>(e));
-  for (std::size_t node = 0; node < n_nodes; ++node)
-  {
-    corner.insert(corner.end(), corners[node].begin(), corners[node].end());
-    edge_at.insert(edge_at.end(), edges[node].begin(), edges[node].end());
-    first_corner.push_back(static_cast<std::int32_t>(corner.size()));
-    first_edge.push_back(static_cast<std::int32_t>(edge_at.size()));
-  }
-}
-
 void SurfaceTopology::check_fans() const
 {
   for (std::size_t n = 0; n < n_nodes(); ++n)
   {
     const auto node = static_cast<std::int32_t>(n);
-    const auto corners = corners_of(node);
-    if (corners.empty())
+    const std::span<const Corner> fan = corners_of(node);
+    if (fan.empty())
       continue;
     std::size_t n_reached = 0;
     const auto edge_from = [&](const std::int32_t face, const int place) { return edge_of[face][place]; };
@@ -90,10 +84,10 @@ void SurfaceTopology::check_fans() const
       return static_cast<int>(std::find(triangle[face].begin(), triangle[face].end(), node) - triangle[face].begin());
     };
     // From the face at the clockwise rim, or any one, anticlockwise around the node.
-    std::int32_t face = corners[0].face;
+    std::int32_t face = fan[0].face;
     const auto across = [&](const std::int32_t f, const std::int32_t e)
     { return edge[e].left == f ? edge[e].right : edge[e].left; };
-    for (std::size_t k = 0; k < corners.size(); ++k)
+    for (std::size_t k = 0; k < fan.size(); ++k)
     {
       const std::int32_t before = across(face, edge_from(face, place_in(face)));
       if (before == none)
@@ -105,9 +99,9 @@ void SurfaceTopology::check_fans() const
     {
       ++n_reached;
       face = across(face, edge_from(face, (place_in(face) + 2) % 3));
-    } while (face != none && face != first && n_reached < corners.size());
-    if (n_reached != corners.size())
-      reject("node ", node, " joins ", corners.size(), " triangles of which only ", n_reached,
+    } while (face != none && face != first && n_reached < fan.size());
+    if (n_reached != fan.size())
+      reject("node ", node, " joins ", fan.size(), " triangles of which only ", n_reached,
              " hang together by edges: give each part a node of its own there");
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dem/core/rows.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -40,20 +42,14 @@ public:
   /// two faces or of two that run through it in the same direction, and fans that touch at a vertex alone.
   SurfaceTopology(std::vector<Triangle> triangles, std::size_t n_nodes);
 
-  std::size_t n_nodes() const { return first_corner.size() - 1; }
+  std::size_t n_nodes() const { return corners.size(); }
   std::size_t n_faces() const { return triangle.size(); }
   std::size_t n_edges() const { return edge.size(); }
 
   bool is_closed() const; ///< without a rim
 
-  std::span<const Corner> corners_of(const std::int32_t node) const
-  {
-    return {corner.data() + first_corner[node], corner.data() + first_corner[node + 1]};
-  }
-  std::span<const std::int32_t> edges_of(const std::int32_t node) const
-  {
-    return {edge_at.data() + first_edge[node], edge_at.data() + first_edge[node + 1]};
-  }
+  std::span<const Corner> corners_of(const std::int32_t node) const { return corners[node]; }
+  std::span<const std::int32_t> edges_of(const std::int32_t node) const { return edges_around[node]; }
 
   std::vector<Triangle> triangle;                   ///< by face
   std::vector<std::array<std::int32_t, 3>> edge_of; ///< by face: k runs from node k to node k + 1
@@ -61,12 +57,10 @@ public:
 
 private:
   void find_edges();
-  void list_around_nodes(std::size_t n_nodes);
   void check_fans() const;
 
-  std::vector<Corner> corner;                       // of all nodes, one after the other
-  std::vector<std::int32_t> first_corner{0};        // by node, and the end
-  std::vector<std::int32_t> edge_at, first_edge{0}; // the same of the edges
+  Rows<Corner> corners;            // by node
+  Rows<std::int32_t> edges_around; // by node
 };
 
 } // namespace bergamo::dem

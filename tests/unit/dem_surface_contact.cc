@@ -291,3 +291,38 @@ TEST_CASE("the rim of an open surface is round", "[surface]")
   REQUIRE(corner[0].feature == Feature::vertex);
   REQUIRE(corner[0].normal.isApprox(out, 1e-9));
 }
+
+TEST_CASE("bounds of the gap between a body and a feature hold", "[surface]")
+{
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(0., 1.);
+  int n_bounds = 0;
+  for (int k = 0; k < 300; ++k)
+  {
+    const Surface terrain = grid_surface(
+        4, [&](double, double) { return 0.3 * unit(random); }, 0.3, random);
+    const Superquadric shape = random_grain(random);
+    const BodyPose body = placed(shape, Vec3(4. * unit(random), 4. * unit(random), 0.5 + 2. * unit(random)), random);
+    const SurfaceView view = terrain.view();
+    SurfaceLook look(body, view);
+    const auto f = static_cast<std::int32_t>(k % terrain.topology.n_faces());
+    const Triangle &t = terrain.topology.triangle[f];
+    const auto check = [&](const double gap, const Vec3 &point)
+    {
+      n_bounds += gap > 0.;
+      if (gap > 0.) // no ball of that radius about a point of the feature reaches into the body
+        for (int n = 0; n < 50; ++n)
+        {
+          const Vec3 x = point + 0.999 * gap * (draw_orientation(random) * Vec3::UnitX()) - body.position;
+          REQUIRE(inside_outside(shape, body.rotation.transpose() * x) > 1.);
+        }
+    };
+    const double a = unit(random), b = unit(random) * (1. - a);
+    check(look.least_gap(Feature::face, f),
+          a * terrain.node[t[0]] + b * terrain.node[t[1]] + (1. - a - b) * terrain.node[t[2]]);
+    check(look.least_gap(Feature::edge, terrain.topology.edge_of[f][0]),
+          a * terrain.node[t[0]] + (1. - a) * terrain.node[t[1]]);
+    check(look.least_gap(Feature::vertex, t[2]), terrain.node[t[2]]);
+  }
+  REQUIRE(n_bounds > 200);
+}
