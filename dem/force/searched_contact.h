@@ -34,16 +34,19 @@ void place_contact(ContactState<Real> &s, const Vector3<Real> &normal, const Vec
   s.forces.tangential = {s.axis.dot(flat) * scale, s.second_axis().dot(flat) * scale};
 }
 
-/// @param wear1, wear2 of both bodies; of no meaning where no error is allowed: then the contact is always due
+/// Wear with which a contact is not followed, however little it turns: radii of flat faces would carry it anywhere.
+inline constexpr double not_followed = 1e100;
+
+/// @param wear1, wear2 of both bodies; of no meaning where no error is allowed: then the contact is searched every step
 template <class Real>
 void give_budget(ContactState<Real> &s, const ContactParameters &parameters, const TurnWear<Real> &wear1,
                  const TurnWear<Real> &wear2)
 {
   const bool is_followed = parameters.overlap_tolerance > 0.;
-  const Vector2<Real> none(Real(0.), Real(0.));
-  s.wear1 = is_followed ? wear1.tilt : none;
-  s.wear2 = is_followed ? wear2.tilt : none;
-  s.twist_wear = is_followed ? Real(wear1.twist + wear2.twist) : Real(0.);
+  const Vector2<Real> all(Real{not_followed}, Real{not_followed});
+  s.wear1 = is_followed ? wear1.tilt : all;
+  s.wear2 = is_followed ? wear2.tilt : all;
+  s.twist_wear = is_followed ? Real(wear1.twist + wear2.twist) : Real(not_followed);
   s.budget = Real(is_followed ? 1. : -1.);
 }
 

@@ -1,4 +1,4 @@
-#include "tests/unit/dem_surfaces.h"
+#include "tests/surfaces.h"
 
 #include "dem/core/error.h"
 
@@ -120,7 +120,7 @@ TEST_CASE("places on any surface add up to one", "[surface]")
   {
     const double rough = std::pow(10., -3. + 3.2 * unit(random));
     const Surface terrain = grid_surface(
-        5, [&](double, double) { return rough * unit(random); }, 0.3, random);
+        5, [&](double, double) { return rough * unit(random); }, 0.24, random);
     for (int m = 0; m < 10; ++m)
     {
       const Superquadric shape = random_grain(random);
@@ -300,7 +300,7 @@ TEST_CASE("bounds of the gap between a body and a feature hold", "[surface]")
   for (int k = 0; k < 300; ++k)
   {
     const Surface terrain = grid_surface(
-        4, [&](double, double) { return 0.3 * unit(random); }, 0.3, random);
+        4, [&](double, double) { return 0.3 * unit(random); }, 0.24, random);
     const Superquadric shape = random_grain(random);
     const BodyPose body = placed(shape, Vec3(4. * unit(random), 4. * unit(random), 0.5 + 2. * unit(random)), random);
     const SurfaceView view = terrain.view();
