@@ -221,6 +221,19 @@ SurfaceLook::Foot SurfaceLook::foot_on_vertex(const std::int32_t node)
   return foot_at(surface.node[node], length > 0.5 ? Vec3(mean / length) : Vec3::UnitZ(), nullptr);
 }
 
+SurfaceLook::Foot SurfaceLook::foot_on(const Feature feature, const std::int32_t number)
+{
+  switch (feature)
+  {
+  case Feature::face:
+    return on_face(number).foot;
+  case Feature::edge:
+    return on_edge(number).foot;
+  default:
+    return foot_on_vertex(number);
+  }
+}
+
 double SurfaceLook::gap_along(const Vec3 &normal, const std::span<const std::int32_t> nodes) const
 {
   double highest = -std::numeric_limits<double>::infinity();
@@ -261,9 +274,7 @@ std::optional<SurfacePlace> SurfaceLook::place_at(const Feature feature, const s
   const std::int32_t node = feature == Feature::face   ? t.triangle[number][0]
                             : feature == Feature::edge ? t.edge[number].from
                                                        : number;
-  const Foot foot = feature == Feature::face   ? on_face(number).foot
-                    : feature == Feature::edge ? on_edge(number).foot
-                                               : foot_on_vertex(node);
+  const Foot foot = foot_on(feature, number);
   const double deepest = deepest_overlap * std::min({body.shape.r1, body.shape.r2, body.shape.r3});
   const bool is_in_front = foot.normal.dot(body.position - surface.node[node]) > 0.;
   if (!(foot.overlap > 0.) || foot.overlap > deepest || !is_in_front)

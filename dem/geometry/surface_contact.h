@@ -67,6 +67,9 @@ public:
   /// The place at a feature, if the body touches it there: its centre is in front, and it is not as deep as that.
   std::optional<SurfacePlace> place_at(Feature feature, std::int32_t number);
 
+  /// Overlap with the plane of a face, the line of an edge or a vertex, whether its place is there or not [m].
+  double overlap_at(Feature feature, std::int32_t number) { return foot_on(feature, number).overlap; }
+
   /// Index of the place at a feature, whether touched or not; 0 where there is none.
   int index_of(Feature feature, std::int32_t number);
 
@@ -102,6 +105,7 @@ private:
     bool is_beyond_from, is_beyond_to; ///< on the edge's side of its nodes
   };
 
+  Foot foot_on(Feature feature, std::int32_t number);
   const FaceFoot &on_face(std::int32_t face);
   const EdgeFoot &on_edge(std::int32_t edge);
   FaceFoot look_at_face(std::int32_t face) const;

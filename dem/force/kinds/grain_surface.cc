@@ -42,7 +42,7 @@ FaceMotion<double> motion_of(const ContactSearch &search, const ContactScene &sc
 
 /// The touching contact of the same part that a new one takes over from: the nearest in direction, about as deep.
 std::optional<ContactState<double>> taken_over(const ContactSearch &search, const SearchContext<GrainSurface> &context,
-                                               const SurfacePlace &place)
+                                               const SurfacePlace &place, SurfaceLook &look)
 {
   constexpr double largest_turn_of_normal = 0.5; // [rad]: over an edge the normal turns with the part
   constexpr double depth_range = 2.;
@@ -51,7 +51,8 @@ std::optional<ContactState<double>> taken_over(const ContactSearch &search, cons
   const std::int32_t surface = feature_of(context.scene.surfaces, search.second).surface;
   for (auto pair = context.list.row[search.first_part]; pair < context.list.row[search.first_part + 1]; ++pair)
   {
-    if (context.slot[pair] < 0 || feature_of(context.scene.surfaces, context.list.second[pair]).surface != surface)
+    const FeatureOfSurface f = feature_of(context.scene.surfaces, context.list.second[pair]);
+    if (context.slot[pair] < 0 || f.surface != surface || !(look.overlap_at(f.feature, f.number) > 0.))
       continue;
     const ContactState<double> other = context.store.get(context.slot[pair]);
     const double alike = -other.normal.dot(place.normal), ratio = place.overlap / other.overlap;
@@ -143,19 +144,19 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
     }
     State state = search.slot >= 0 ? context.store.get(search.slot) : State::begin();
     const double weight = place->index * scene.particles.weight[search.first];
+    const Vec3 point = place->arm + 0.5 * place->overlap * place->normal;
+    const FaceMotion<double> motion = motion_of(search, scene, point);
     if (search.slot < 0)
-      if (const auto other = taken_over(search, context, *place))
+      if (const auto other = taken_over(search, context, *place, look))
       {
-        // Its energy goes over: that of the other counts as lost where it ends, and is found again here.
+        // It goes on from the other's state, which ends or stays by its own books: their end is taken back.
         state = *other;
         state.weight = weight;
-        const ContactEnergy found = stored_energy(state);
-        losses.search += found.normal;
-        losses.friction -= found.tangential;
+        ContactState<double> ended = state;
+        ended.point = point;
+        losses += end_of(ended, motion) * -1.;
       }
-    const Vec3 point = place->arm + 0.5 * place->overlap * place->normal;
-    take_flat_place(search, scene, {-place->normal, place->overlap, weight}, motion_of(search, scene, point), state,
-                    losses);
+    take_flat_place(search, scene, {-place->normal, place->overlap, weight}, motion, state, losses);
     // On a face at rest the deepest point may go half the way to the nearest edge before it is looked at again.
     constexpr double share = 0.5;
     const bool is_followed = f.feature == Feature::face && surface.is_at_rest();
@@ -172,11 +173,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
 
 ContactLosses GrainSurface::end(const ContactSearch &search, const State &state, const ContactScene &scene)
 {
-  if (search.gap > 0.)
-    return end_of(state, motion_of(search, scene, state.point));
-  ContactLosses losses = release(state); // another place has taken over
-  losses.search = -stored_energy(state).normal;
-  return losses;
+  return end_of(state, motion_of(search, scene, state.point));
 }
 
 void GrainSurface::refresh(Store &store, const Particles &)
