@@ -164,9 +164,7 @@ SurfaceLook::Foot SurfaceLook::foot_at(const Vec3 &point, const Vec3 &guess, con
 {
   const auto beside_line = [&](const Vec3 &v) -> Vec3 { return along ? Vec3(v - *along * along->dot(v)) : v; };
   const Vec3 line = beside_line(body.position - point);
-  const Vec3 centre = line.normalized();
-  const bool is_good = foot_against(guess, point).overlap < foot_against(centre, point).overlap;
-  Vec3 normal = is_good ? guess : centre;
+  Vec3 normal = guess;
   constexpr int most = 100;
   for (int n = 0; n < most; ++n)
   {
@@ -211,14 +209,35 @@ SurfaceLook::Foot SurfaceLook::foot_at(const Vec3 &point, const Vec3 &guess, con
   return foot_against(normal, point);
 }
 
-/// From the mean normal of its faces, where all of a flat fan's places are.
+/// The cone of normals of a vertex lies between those of its faces and edges, and a body may have several least depths
+/// at a point: searches start from all of these normals and from the middle of the body.
 SurfaceLook::Foot SurfaceLook::foot_on_vertex(const std::int32_t node)
 {
+  const Vec3 &point = surface.node[node];
   Vec3 mean = Vec3::Zero();
+  std::vector<Vec3> starts;
   for (const auto &[f, place] : surface.topology.corners_of(node))
-    mean += on_face(f).foot.normal;
-  const double length = mean.norm();
-  return foot_at(surface.node[node], length > 0.5 ? Vec3(mean / length) : Vec3::UnitZ(), nullptr);
+  {
+    starts.push_back(on_face(f).foot.normal);
+    mean += starts.back();
+  }
+  for (const std::int32_t e : surface.topology.edges_of(node))
+    starts.push_back(on_edge(e).foot.normal);
+  const Vec3 line = body.position - point;
+  starts.push_back(mean.dot(line) > 0. ? line.normalized() : starts[0]);
+  std::vector<Foot> tried;
+  for (const Vec3 &start : starts)
+    tried.push_back(foot_against(start, point));
+  const auto is_less_deep = [](const Foot &a, const Foot &b) { return a.overlap < b.overlap; };
+  std::sort(tried.begin(), tried.end(), is_less_deep);
+  if (!(tried[0].overlap > 0.))
+    return tried[0]; // apart
+  Foot least = foot_at(point, tried[0].normal, nullptr);
+  for (std::size_t k = 1; k < tried.size(); ++k)
+    if ((tried[k].normal - tried[k - 1].normal).squaredNorm() > 1e-6)
+      if (const Foot other = foot_at(point, tried[k].normal, nullptr); other.overlap < least.overlap)
+        least = other;
+  return least;
 }
 
 SurfaceLook::Foot SurfaceLook::foot_on(const Feature feature, const std::int32_t number)
@@ -250,7 +269,10 @@ double SurfaceLook::least_gap(const Feature feature, const std::int32_t number)
     const SurfaceTopology::Edge &ends = t.edge[e];
     const Vec3 along = (surface.node[ends.to] - surface.node[ends.from]).normalized();
     const Vec3 &across = on_face(ends.left).foot.normal;
-    return foot_at(surface.node[ends.from], across, &along);
+    const Vec3 line = body.position - surface.node[ends.from], beside = (line - along * along.dot(line)).normalized();
+    const bool is_better =
+        foot_against(beside, surface.node[ends.from]).overlap < foot_against(across, surface.node[ends.from]).overlap;
+    return foot_at(surface.node[ends.from], is_better ? beside : across, &along);
   };
   if (feature == Feature::vertex)
     return -foot_on_vertex(number).overlap;

@@ -98,11 +98,13 @@ TEST_CASE("a grain on triangles of one plane moves as on the plane")
         most = std::max(most, (on_mesh.particles.position[0] - grains.position[0]).norm());
       }
       INFO(n << " squares a side, exponents " << shape.eps1 << ", " << shape.eps2);
-      CHECK(farthest < 1e-9 * mm);
+      // A superquadric that goes over an edge makes that step at once, one on the plane is followed and corrected.
+      const double share = shape.is_sphere() ? 1e-9 : 1e-4;
+      CHECK(farthest < share * mm);
       CHECK(most > 0.5 * mm);
-      CHECK((on_plane.walls[0].force -
-             std::accumulate(on_mesh.surfaces[0].force.begin(), on_mesh.surfaces[0].force.end(), Vec3(Vec3::Zero())))
-                .norm() < 1e-8 * on_plane.walls[0].force.norm());
+      const std::vector<Vec3> &forces = on_mesh.surfaces[0].force;
+      const Vec3 force = std::accumulate(forces.begin(), forces.end(), Vec3(Vec3::Zero()));
+      CHECK((on_plane.walls[0].force - force).norm() < 10. * share * on_plane.walls[0].force.norm());
     }
 }
 

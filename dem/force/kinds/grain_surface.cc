@@ -159,6 +159,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
     take_flat_place(search, scene, {-place->normal, place->overlap, weight}, motion, state, losses);
     // On a face at rest the deepest point may go half the way to the nearest edge before it is looked at again.
     constexpr double share = 0.5;
+    constexpr double not_followed = 1e100; // [1/m]
     const bool is_followed = f.feature == Feature::face && surface.is_at_rest();
     const double way = is_followed ? share * look.distance_to_edges(f.number) : 0.;
     state.radii2.r11 = way > 0. ? std::min(1. / way, not_followed) : not_followed;
