@@ -129,8 +129,10 @@ public:
 
   void search_all()
   {
+    const VerletList no_candidates; // asked for by kinds alone whose contacts take over from one another
+    const std::vector<std::int32_t> no_slots;
     const ContactScene scene{pairs.particles, no_walls, law, parameters, time_step};
-    const SearchContext<GrainGrain> context{scene, store, separation};
+    const SearchContext<GrainGrain> context{scene, store, separation, no_candidates, no_slots};
     for (int pack = 0; pack < n_packs; ++pack)
     {
       const std::size_t n_begun = begun.size();

@@ -2,9 +2,11 @@
 
 #include "dem/neighbour/verlet_list.h"
 #include "dem/state/particles.h"
+#include "dem/state/surface.h"
 #include "dem/state/wall.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace bergamo::dem
@@ -17,6 +19,10 @@ VerletList near_parts(const Particles &particles, double range);
 /// Parts of free particles that are nearer to a wall than their bounding radius plus a range [m]: rows by part, the
 /// second of a pair is the wall.
 VerletList parts_near_walls(const Particles &particles, const std::vector<PlaneWall> &walls, double range);
+
+/// Parts of free particles and features of surfaces that are nearer to one another than the part's bounding radius plus
+/// a range [m]: rows by part, the second of a pair counts as in feature_of().
+VerletList parts_near_surfaces(const Particles &particles, std::span<const Surface> surfaces, double range);
 
 /// Deals a list out to several, in its order. @param class_of class_of(first, second) of a pair, in [0, n)
 template <class ClassOf>

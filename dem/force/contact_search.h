@@ -3,6 +3,7 @@
 #include "dem/force/contact_scene.h"
 #include "dem/force/contact_store.h"
 #include "dem/force/load_sums.h"
+#include "dem/neighbour/verlet_list.h"
 
 #include <cstdint>
 #include <vector>
@@ -41,6 +42,8 @@ struct SearchContext
   typename Kind::Store &store; ///< contacts with a slot are brought to this step where they touch
   /// By pair: where the search of a pair apart starts; takes what is found.
   std::vector<typename Kind::Hint> &hint;
+  const VerletList &list;                ///< all candidates
+  const std::vector<std::int32_t> &slot; ///< of each in `store`, or negative
 };
 
 } // namespace bergamo::dem

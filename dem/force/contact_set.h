@@ -24,8 +24,9 @@ inline constexpr std::int32_t removed_part = -1;
 ///
 /// A kind says what a contact remembers (State, Store), where a search starts (Hint), how far its bodies have moved
 /// (travelled), what is left of the gap of a pair apart (least_gap), how a block is followed, a group of pairs
-/// searched, a contact ended, seen from the other body, searched anew and shown to a reader; and whether body 2 is a
-/// wall, which then counts as a body after the particles. See dem/force/kinds, and Contacts, which lists them all.
+/// searched, a contact ended, seen from the other body, searched anew and shown to a reader; whether body 2 is no part,
+/// and which body then takes the loads; and whether new contacts take over from others of the same part, so that they
+/// are searched after those. See dem/force/kinds, and Contacts, which lists them all.
 template <class Kind>
 class ContactSet
 {
@@ -114,7 +115,7 @@ private:
   };
 
   ContactSearch place_of(std::int32_t pair, const Particles &particles) const;
-  void list_bodies(std::size_t n_particles, std::size_t n_walls);
+  void list_bodies(const BodyCount &count);
   std::vector<std::int32_t> screen(const ContactScene &scene);
   Found search(const std::vector<std::int32_t> &due_slots, const std::vector<std::int32_t> &candidates,
                const ContactScene &scene);
@@ -123,11 +124,6 @@ private:
   void add_load_of(const Particles &particles, const ContactSearch &pair, const Resultant &resultant);
   std::int32_t slot_near(std::int32_t pair) const;
   void compact(const std::vector<std::int32_t> &pairs, const Particles &particles);
-  static std::int32_t body_of_second(const std::int32_t second, const std::size_t n_particles)
-  {
-    return Kind::second_is_wall ? static_cast<std::int32_t>(n_particles) + second : second;
-  }
-
   VerletList list;
   std::vector<std::int32_t> slot; ///< of each candidate in `store`, or `apart`
   /// A pair apart cannot touch before the motions of both bodies add up to this [m]: it is left alone until then, which

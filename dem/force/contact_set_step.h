@@ -18,7 +18,7 @@ void ContactSet<Kind>::compute(const ContactScene &scene, PhaseTimes &times)
     return; // history has ended at the renewal
   Stopwatch watch;
   const Particles &p = scene.particles;
-  list_bodies(p.size(), scene.walls.size());
+  list_bodies(scene.bodies());
   const std::vector<std::int32_t> due_slots = follow_all(store, loads, losses,
                                                          [&](const std::size_t block, Losses<Pack> &lost) {
                                                            return Kind::follow_block(store, loads, block, scene, lost);
@@ -29,11 +29,26 @@ void ContactSet<Kind>::compute(const ContactScene &scene, PhaseTimes &times)
   const std::vector<std::int32_t> candidates = screen(scene);
   watch.lap(times.screening);
 
-  const Found found = search(due_slots, candidates, scene);
-  take_up(found, scene);
-  list_bodies(p.size(), scene.walls.size());
-  add_due_loads(p, due_slots);
-  found.begun.for_each([&](const NewContact &c) { add_load_of(p, c.search, c.search.resultant); });
+  due_loads.resize(due_slots.size());
+  const auto finish = [&](const Found &found)
+  {
+    list_bodies(scene.bodies());
+    add_due_loads(p, due_slots);
+    found.begun.for_each([&](const NewContact &c) { add_load_of(p, c.search, c.search.resultant); });
+  };
+  if constexpr (Kind::takes_over)
+  {
+    const Found ended = search(due_slots, {}, scene), begun = search({}, candidates, scene);
+    take_up(ended, scene);
+    take_up(begun, scene);
+    finish(begun);
+  }
+  else
+  {
+    const Found found = search(due_slots, candidates, scene);
+    take_up(found, scene);
+    finish(found);
+  }
   watch.lap(times.searches);
 }
 
@@ -83,11 +98,10 @@ typename ContactSet<Kind>::Found ContactSet<Kind>::search(const std::vector<std:
 {
   const std::size_t n = due_slots.size() + candidates.size(),
                     n_groups = (n + Kind::search_group - 1) / Kind::search_group;
-  due_loads.resize(due_slots.size());
   Found found;
   Collected<std::int64_t> undecided;
   std::vector<ContactLosses> group_losses(n_groups);
-  const SearchContext<Kind> context{scene, store, hint};
+  const SearchContext<Kind> context{scene, store, hint, list, slot};
   parallel_ranges(n_groups, 1,
                   [&](const std::size_t part, const std::size_t begin, const std::size_t end)
                   {
@@ -143,7 +157,7 @@ void ContactSet<Kind>::take_up(const Found &found, const ContactScene &scene)
       {
         const ContactSearch &s = c.search;
         slot[s.pair] = store.add({s.pair, s.first, s.second, s.image}, c.state, slot_near(s.pair));
-        loads.take(slot[s.pair], s.first, body_of_second(s.second, scene.particles.size()));
+        loads.take(slot[s.pair], s.first, Kind::body_of_second(s.second, scene.bodies()));
         rest_until[s.pair] = std::numeric_limits<double>::infinity();
       });
 }
@@ -188,19 +202,19 @@ std::int32_t ContactSet<Kind>::slot_near(const std::int32_t pair) const
 }
 
 template <class Kind>
-void ContactSet<Kind>::list_bodies(const std::size_t n_particles, const std::size_t n_walls)
+void ContactSet<Kind>::list_bodies(const BodyCount &count)
 {
   if (loads.is_current())
     return;
   if constexpr (Kind::second_is_wall)
   {
     std::vector<std::int32_t> body;
-    for (const std::int32_t wall : store.second)
-      body.push_back(body_of_second(wall, n_particles));
-    loads.list_bodies(store.first, body, n_particles + n_walls);
+    for (const std::int32_t second : store.second)
+      body.push_back(Kind::body_of_second(second, count));
+    loads.list_bodies(store.first, body, count.all());
   }
   else
-    loads.list_bodies(store.first, store.second, n_particles);
+    loads.list_bodies(store.first, store.second, count.particles);
 }
 
 template <class Kind>

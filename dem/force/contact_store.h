@@ -227,7 +227,7 @@ template <template <class> class State>
 void search_all_anew(ContactStore<State> &store)
 {
   for (State<Pack> &block : store.blocks)
-    block.budget = math::select(block.weight > 0., Pack(-1.), block.budget);
+    block.budget = math::select(block.weight != 0., Pack(-1.), block.budget);
 }
 
 } // namespace bergamo::dem

@@ -26,7 +26,8 @@ Contacts::Contacts(const std::int32_t n_material_pairs)
   for_each_kind(*this, [&](const char *, auto &sets) { sets.resize(n_material_pairs); });
 }
 
-void Contacts::renew(const Particles &particles, const std::vector<PlaneWall> &walls, const double range)
+void Contacts::renew(const Particles &particles, const std::vector<PlaneWall> &walls,
+                     const std::span<const Surface> surfaces, const double range)
 {
   const Parts &parts = particles.parts;
   const std::size_t n_laws = grain_grain.size();
@@ -50,6 +51,16 @@ void Contacts::renew(const Particles &particles, const std::vector<PlaneWall> &w
             { return MaterialTable::pair_number(parts.material[part], walls[wall].material); });
   for (std::size_t law = 0; law < n_laws; ++law)
     grain_plane[law].renew(std::move(near_walls[law]), particles);
+
+  std::vector<VerletList> near_surfaces = split(parts_near_surfaces(particles, surfaces, range), n_laws,
+                                                [&](const std::int32_t part, const std::int32_t feature)
+                                                {
+                                                  const std::int32_t material =
+                                                      surfaces[feature_of(surfaces, feature).surface].material;
+                                                  return MaterialTable::pair_number(parts.material[part], material);
+                                                });
+  for (std::size_t law = 0; law < n_laws; ++law)
+    grain_surface[law].renew(std::move(near_surfaces[law]), particles);
 }
 
 void Contacts::reorder(const std::vector<std::int32_t> &part_order, const std::size_t n_old)
@@ -71,7 +82,7 @@ void Contacts::compute(const Particles &particles, const std::vector<PlaneWall> 
 {
   for_each_set(*this,
                [&](auto &set, const std::int32_t law) {
-                 set.compute({particles, walls, step.laws[law], step.parameters, step.time_step}, times);
+                 set.compute({particles, walls, step.laws[law], step.parameters, step.time_step, step.surfaces}, times);
                });
 }
 

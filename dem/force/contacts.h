@@ -2,6 +2,7 @@
 
 #include "dem/force/kinds/grain_grain.h"
 #include "dem/force/kinds/grain_plane.h"
+#include "dem/force/kinds/grain_surface.h"
 #include "dem/force/kinds/sphere_sphere.h"
 #include "dem/state/material.h"
 
@@ -21,6 +22,7 @@ struct ContactStep
   const std::vector<ContactLaw> &laws; ///< by MaterialTable::pair_number()
   const ContactParameters &parameters;
   double time_step; ///< of the drift that led here [s]
+  std::span<const Surface> surfaces = {};
 };
 
 /// All contacts of a simulation: the register of their kinds. Each kind has a set for each pair of materials, so that
@@ -37,6 +39,7 @@ public:
     visit("grain_grain", self.grain_grain);
     visit("sphere_sphere", self.sphere_sphere);
     visit("grain_plane", self.grain_plane);
+    visit("grain_surface", self.grain_surface);
   }
 
   /// Calls visit(set, number of the pair of materials) for the sets of all kinds.
@@ -52,7 +55,8 @@ public:
   }
 
   /// Looks for candidates anew; the history of pairs that stay is kept. @param range beyond the bounding radii [m]
-  void renew(const Particles &particles, const std::vector<PlaneWall> &walls, double range);
+  void renew(const Particles &particles, const std::vector<PlaneWall> &walls, std::span<const Surface> surfaces,
+             double range);
 
   /// Follows a new order of the parts that stay, order[new] = old. The candidates must be renewed afterwards.
   /// @param n_old parts before
@@ -75,7 +79,7 @@ public:
   /// Has every contact searched anew at the next step, e.g. after weights have been changed.
   void refresh(const Particles &particles);
 
-  /// Contacts between particles, and with walls, in a fixed order.
+  /// Contacts between particles, and with walls and surfaces, in a fixed order.
   std::vector<TouchingContact> touching(const Particles &particles) const;
   std::vector<TouchingContact> touching_walls(const Particles &particles) const;
 
@@ -84,7 +88,7 @@ public:
   void reset_losses();
 
   std::int32_t n_touching() const;       ///< contacts between particles
-  std::int32_t n_touching_walls() const; ///< contacts with walls
+  std::int32_t n_touching_walls() const; ///< contacts with walls and surfaces
   std::int64_t n_candidates() const;     ///< pairs of parts near one another
   std::int64_t n_searches() const;       ///< since the start
   std::int64_t n_undecided() const;      ///< searches that ended without a decision, since the start
@@ -110,6 +114,7 @@ public:
   std::vector<ContactSet<GrainGrain>> grain_grain;
   std::vector<ContactSet<SphereSphere>> sphere_sphere;
   std::vector<ContactSet<GrainPlane>> grain_plane;
+  std::vector<ContactSet<GrainSurface>> grain_surface;
 };
 
 } // namespace bergamo::dem

@@ -48,6 +48,7 @@ struct TouchingContact
   Image image = own_image; ///< of body 2, see PeriodicCell
   std::int32_t wall = -1;  ///< that is body 2, else negative
   std::int32_t law = 0;    ///< number of the pair of materials, see MaterialTable
+  std::int32_t feature = -1; ///< of a surface that is body 2, see feature_of(), else negative
 };
 
 } // namespace bergamo::dem

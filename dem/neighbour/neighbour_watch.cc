@@ -8,7 +8,8 @@
 namespace bergamo::dem
 {
 
-void NeighbourWatch::lists_were_built(const Particles &particles, const std::vector<PlaneWall> &walls)
+void NeighbourWatch::lists_were_built(const Particles &particles, const std::vector<PlaneWall> &walls,
+                                      std::span<const Surface> surfaces)
 {
   position_when_built = particles.position;
   orientation_when_built = particles.has_clumps() ? particles.orientation : std::vector<Quaternion>();
@@ -17,6 +18,9 @@ void NeighbourWatch::lists_were_built(const Particles &particles, const std::vec
   wall_motion_when_built.clear();
   for (const PlaneWall &wall : walls)
     wall_motion_when_built.push_back(wall.motion);
+  surface_motion_when_built.clear();
+  for (const Surface &surface : surfaces)
+    surface_motion_when_built.push_back(surface.motion);
 }
 
 /// Largest displacement of any part's centre since the lists were built [m].
@@ -33,10 +37,14 @@ double NeighbourWatch::displacement(const Particles &p, const std::size_t i) con
   return of_centre + 2. * arm * axis.norm();
 }
 
-bool NeighbourWatch::must_renew(const Particles &particles, const std::vector<PlaneWall> &walls)
+bool NeighbourWatch::must_renew(const Particles &particles, const std::vector<PlaneWall> &walls,
+                                std::span<const Surface> surfaces)
 {
   for (std::size_t w = 0; w < walls.size(); ++w)
     if (walls[w].motion - wall_motion_when_built[w] > 0.5 * verlet_distance)
+      return true;
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    if (surfaces[s].motion - surface_motion_when_built[s] > 0.5 * verlet_distance)
       return true;
   double limit = 0.5 * verlet_distance;
   if (particles.cell.is_periodic())

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "dem/state/particles.h"
+#include "dem/state/surface.h"
 #include "dem/state/wall.h"
 
+#include <span>
 #include <vector>
 
 namespace bergamo::dem
@@ -17,10 +19,11 @@ public:
   double verlet_distance = 0.; ///< range beyond the bounding radii [m]
 
   /// Takes the present places for those of the lists.
-  void lists_were_built(const Particles &particles, const std::vector<PlaneWall> &walls);
+  void lists_were_built(const Particles &particles, const std::vector<PlaneWall> &walls,
+                        std::span<const Surface> surfaces);
 
   /// Whether the lists may miss a pair by now.
-  bool must_renew(const Particles &particles, const std::vector<PlaneWall> &walls);
+  bool must_renew(const Particles &particles, const std::vector<PlaneWall> &walls, std::span<const Surface> surfaces);
 
   /// Where a particle was when the lists were built [m]; nothing known of it where it is too new.
   const Vec3 *place_when_built(const std::size_t i) const
@@ -36,6 +39,7 @@ public:
     visit("position_when_built", self.position_when_built);
     visit("turn_when_built", self.orientation_when_built);
     visit("wall_motion_when_built", self.wall_motion_when_built);
+    visit("surface_motion_when_built", self.surface_motion_when_built);
     visit("edges_when_built", self.edges_when_built);
   }
 
@@ -45,7 +49,7 @@ private:
   double look_at_motion = 0.; // Particles::largest_motion below which nothing can have left its neighbours [m]
   std::vector<Vec3> position_when_built;
   std::vector<Quaternion> orientation_when_built; // of clumps, whose parts move when they turn; else empty
-  std::vector<double> wall_motion_when_built;
+  std::vector<double> wall_motion_when_built, surface_motion_when_built;
   Vec3 edges_when_built = Vec3::Zero(); // of the periodic cell [m]
 };
 

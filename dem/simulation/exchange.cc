@@ -2,6 +2,7 @@
 #include "dem/simulation/simulation.h"
 
 #include <string>
+#include <utility>
 
 /// Bodies that come and go while a simulation runs.
 namespace bergamo::dem
@@ -27,6 +28,15 @@ void Simulation::add_wall(const PlaneWall &wall)
     throw ConfigError("a periodic cell has no walls: add none");
   walls.push_back(wall);
   walls.back().drift_velocity.setZero();
+  renew_neighbours();
+}
+
+void Simulation::add_surface(Surface surface)
+{
+  surface.validate(p.materials.size());
+  if (particles.cell.is_periodic())
+    throw ConfigError("a periodic cell has no surfaces: add none");
+  surfaces.push_back(std::move(surface));
   renew_neighbours();
 }
 

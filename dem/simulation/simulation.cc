@@ -104,8 +104,8 @@ void Simulation::renew_neighbours()
                      std::to_string(least) + " m: begin with a larger cell or load it less");
     accounts.cell_work.sum += return_to_cell(particles);
   }
-  contacts.renew(particles, walls, watch.verlet_distance);
-  watch.lists_were_built(particles, walls);
+  contacts.renew(particles, walls, surfaces, watch.verlet_distance);
+  watch.lists_were_built(particles, walls, surfaces);
   ++n_renewals;
 }
 
@@ -133,7 +133,7 @@ void Simulation::compute_forces()
   if (forces_are_known)
     return; // history of contacts and works advance once a step
   Stopwatch watch_of_phases;
-  if (watch.must_renew(particles, walls))
+  if (watch.must_renew(particles, walls, surfaces))
   {
     if (n_renewals - n_renewals_when_sorted >= p.sort_interval)
       sort_by_place();
@@ -142,7 +142,7 @@ void Simulation::compute_forces()
   }
   watch_of_phases.lap(times.neighbours);
 
-  contacts.compute(particles, walls, {laws, p.contact, last_step}, times);
+  contacts.compute(particles, walls, {laws, p.contact, last_step, surfaces}, times);
   watch_of_phases.restart();
   const std::vector<const LoadSums *> sums = contacts.load_sums();
   const auto load_of = [&](const std::size_t body)
@@ -165,6 +165,7 @@ void Simulation::compute_forces()
     const Vec3 old_force = std::exchange(walls[w].force, force);
     walls[w].work -= 0.5 * last_step * (old_force + force).dot(walls[w].drift_velocity);
   }
+  load_surfaces();
   if (particles.cell.is_periodic())
     accounts.cell_work.book_contacts(particles.cell, contacts.virial().image.cwiseQuotient(particles.cell.edges),
                                      last_step);
@@ -220,6 +221,38 @@ void Simulation::move_walls(const double dt)
     wall.motion += dt * wall.velocity.norm();
   }
   dem::check_finite(walls, now());
+  for (Surface &surface : surfaces)
+    surface.advance(dt);
+}
+
+/// What the contacts give to the nodes, contact by contact in a fixed order, and its work over the last step.
+void Simulation::load_surfaces()
+{
+  if (surfaces.empty())
+    return;
+  for (Surface &surface : surfaces)
+  {
+    surface.old_force = surface.force;
+    std::fill(surface.force.begin(), surface.force.end(), Vec3::Zero());
+  }
+  for (const ContactSet<GrainSurface> &set : contacts.grain_surface)
+    for (std::size_t slot = 0; slot < set.touching().n_slots(); ++slot)
+    {
+      const auto &store = set.touching();
+      if (store.pair[slot] == store.free_slot)
+        continue;
+      const FeatureOfSurface f = feature_of(surfaces, store.second[slot]);
+      Surface &surface = surfaces[f.surface];
+      const ContactState<double> state = store.get(static_cast<std::int32_t>(slot));
+      const Vec3 force = -state.force();
+      const NodeShares shares =
+          node_shares(surface, f.feature, f.number, particles.position[store.first[slot]] + state.point);
+      for (int k = 0; k < 3; ++k)
+        surface.force[shares.node[k]] += shares.share[k] * force;
+    }
+  for (Surface &surface : surfaces)
+    for (std::size_t n = 0; n < surface.node.size(); ++n)
+      surface.work -= 0.5 * last_step * (surface.old_force[n] + surface.force[n]).dot(surface.drift_velocity[n]);
 }
 
 void Simulation::rest()
@@ -233,6 +266,8 @@ void Simulation::reset_accounts()
   contacts.reset_losses();
   for (PlaneWall &wall : walls)
     wall.work = 0.;
+  for (Surface &surface : surfaces)
+    surface.work = 0.;
   accounts.reset(gravity_potential(particles, p.gravity));
 }
 
@@ -257,6 +292,8 @@ GrainEnergy Simulation::energy() const
   e.wall_work = accounts.removed_wall_work;
   for (const PlaneWall &wall : walls)
     e.wall_work += wall.work;
+  for (const Surface &surface : surfaces)
+    e.wall_work += surface.work;
   e.gravity_work = accounts.start_potential - gravity_potential(particles, p.gravity);
   e.cell_work = accounts.cell_work.at_this_step(particles, last_step);
   e.exchanged = accounts.exchanged;

@@ -9,6 +9,7 @@
 #include "dem/simulation/simulation_parameters.h"
 #include "dem/state/id_index.h"
 #include "dem/state/particles.h"
+#include "dem/state/surface.h"
 #include "dem/state/wall.h"
 
 #include <cstdint>
@@ -31,11 +32,11 @@ struct Exchange
   std::vector<std::int64_t> ids = {}; ///< in the order of the arrays
 };
 
-/// Grains and walls, stepped by leapfrog in the order of Wellmann's fig. 3.12. The protocol of a step is that of every
-/// mover: compute_forces(), kick(), then what is to be read of the step, then drift(). Reading changes nothing, forces
-/// may be asked for as often as one likes; forces from elsewhere are put into particles.external_force before kick().
-/// Velocities, of walls too, may be set between steps or before kick(): they count for the drift to come. The same bits
-/// on any number of threads and after any restart.
+/// Grains, walls and surfaces, stepped by leapfrog in the order of Wellmann's fig. 3.12. The protocol of a step is that
+/// of every mover: compute_forces(), kick(), then what is to be read of the step, then drift(). Reading changes
+/// nothing, forces may be asked for as often as one likes; forces from elsewhere are put into particles.external_force
+/// before kick(). Velocities, of walls too, may be set between steps or before kick(): they count for the drift to
+/// come. The same bits on any number of threads and after any restart.
 class Simulation
 {
 public:
@@ -69,6 +70,9 @@ public:
   /// Between steps: removes a wall, or adds one; later walls move up by one.
   void remove_wall(std::int32_t index);
   void add_wall(const PlaneWall &wall);
+
+  /// Between steps: adds a surface, at rest. Throws ConfigError as its validate() does, or in a periodic cell.
+  void add_surface(Surface surface);
 
   /// Removes particles at the present step, of which the forces are computed first if they were not. Ids of the others
   /// stay, and so does the history of their contacts; the energy taken out is booked.
@@ -115,6 +119,7 @@ public:
 
   Particles particles;
   std::vector<PlaneWall> walls;
+  std::vector<Surface> surfaces; ///< see add_surface(); velocities of the nodes may be set
   Contacts contacts;
   double time = 0.; ///< [s]
   std::int64_t n_steps = 0;
@@ -127,6 +132,7 @@ public:
     visit("parameters", self.p);
     visit("particles", self.particles);
     visit("walls", self.walls);
+    visit("surfaces", self.surfaces);
     visit("contacts", self.contacts);
     visit("watch", self.watch);
     visit("accounts", self.accounts);
@@ -145,6 +151,7 @@ private:
   void check_cell() const;
   void renew_neighbours();
   void move_walls(double drift);
+  void load_surfaces();
   void take_order(const std::vector<std::int32_t> &order);
   double kinetic_energy_of(std::size_t i) const;
   double step_change_here() const;

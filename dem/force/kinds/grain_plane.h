@@ -21,9 +21,15 @@ struct GrainPlane
   static double least_gap(const Hint &, const ContactSearch &, const ContactScene &) { return 0.; } // unknown
 
   static constexpr bool second_is_wall = true;
+  static constexpr bool takes_over = false;
   static constexpr bool is_interleaved = false; // all contacts of a wall add to the same load
   static constexpr std::size_t search_group = 16;
   static constexpr std::int32_t near_reach = 1;
+
+  static std::int32_t body_of_second(const std::int32_t wall, const BodyCount &count)
+  {
+    return static_cast<std::int32_t>(count.particles) + wall;
+  }
 
   static double travelled(const ContactScene &scene, std::int32_t part, std::int32_t wall)
   {

@@ -1,0 +1,131 @@
+#include "dem/core/parallel.h"
+#include "dem/force/candidates.h"
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
+#include <algorithm>
+#include <iterator>
+
+namespace bergamo::dem
+{
+namespace
+{
+
+namespace bg = boost::geometry;
+using Point = bg::model::point<double, 3, bg::cs::cartesian>;
+using Box = bg::model::box<Point>;
+
+/// A triangle among those of all surfaces.
+struct Face
+{
+  std::int32_t surface, number;
+  std::int32_t first_feature; ///< of its surface
+};
+using Entry = std::pair<Box, Face>;
+using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
+
+Point point(const Vec3 &x)
+{
+  return {x[0], x[1], x[2]};
+}
+
+/// Nearest point of a triangle (Ericson 2005, Real-Time Collision Detection, 5.1.5).
+double distance(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c)
+{
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0. && d2 <= 0.)
+    return ap.norm();
+  const Vec3 bp = p - b;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0. && d4 <= d3)
+    return bp.norm();
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0. && d1 >= 0. && d3 <= 0.)
+    return (ap - d1 / (d1 - d3) * ab).norm();
+  const Vec3 cp = p - c;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0. && d5 <= d6)
+    return cp.norm();
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0. && d2 >= 0. && d6 <= 0.)
+    return (ap - d2 / (d2 - d6) * ac).norm();
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0. && d4 >= d3 && d5 >= d6)
+    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).norm();
+  const Vec3 normal = ab.cross(ac);
+  return std::abs(normal.dot(ap)) / normal.norm();
+}
+
+Tree tree_of(const std::span<const Surface> surfaces)
+{
+  std::vector<Entry> entries;
+  std::int32_t first_feature = 0;
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+  {
+    const Surface &surface = surfaces[s];
+    for (std::size_t f = 0; f < surface.topology.n_faces(); ++f)
+    {
+      const auto &[a, b, c] = surface.topology.triangle[f];
+      const Vec3 &x = surface.node[a], &y = surface.node[b], &z = surface.node[c];
+      entries.emplace_back(Box(point(x.cwiseMin(y).cwiseMin(z)), point(x.cwiseMax(y).cwiseMax(z))),
+                           Face{static_cast<std::int32_t>(s), static_cast<std::int32_t>(f), first_feature});
+    }
+    first_feature += static_cast<std::int32_t>(surface.n_features());
+  }
+  return Tree(entries.begin(), entries.end()); // packed
+}
+
+} // namespace
+
+VerletList parts_near_surfaces(const Particles &p, const std::span<const Surface> surfaces, const double range)
+{
+  VerletList list;
+  const std::size_t n = p.parts.size();
+  list.row.assign(n + 1, 0);
+  if (surfaces.empty())
+    return list;
+  const Tree tree = tree_of(surfaces);
+  std::vector<std::vector<std::int32_t>> near(n);
+  parallel_for(n,
+               [&](const std::size_t k)
+               {
+                 if (p.is_fixed(p.parts.particle[k]))
+                   return;
+                 const Vec3 centre = p.part_position(k);
+                 const double reach = p.parts.bounding_radius[k] + range;
+                 const Vec3 around = Vec3::Constant(reach);
+                 std::vector<Entry> found;
+                 tree.query(bg::index::intersects(Box(point(centre - around), point(centre + around))),
+                            std::back_inserter(found));
+                 for (const auto &[box, face] : found)
+                 {
+                   const Surface &surface = surfaces[face.surface];
+                   const SurfaceTopology &t = surface.topology;
+                   const auto &[a, b, c] = t.triangle[face.number];
+                   if (!(distance(centre, surface.node[a], surface.node[b], surface.node[c]) < reach))
+                     continue;
+                   const auto add = [&](const std::size_t offset, const std::int32_t number)
+                   { near[k].push_back(face.first_feature + static_cast<std::int32_t>(offset) + number); };
+                   add(0, face.number);
+                   for (int side = 0; side < 3; ++side)
+                   {
+                     add(t.n_faces(), t.edge_of[face.number][side]);
+                     add(t.n_faces() + t.n_edges(), t.triangle[face.number][side]);
+                   }
+                 }
+                 std::sort(near[k].begin(), near[k].end());
+                 near[k].erase(std::unique(near[k].begin(), near[k].end()), near[k].end());
+               });
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    list.first.insert(list.first.end(), near[k].size(), static_cast<std::int32_t>(k));
+    list.second.insert(list.second.end(), near[k].begin(), near[k].end());
+    list.row[k + 1] = static_cast<std::int32_t>(list.second.size());
+  }
+  list.image.assign(list.size(), own_image);
+  return list;
+}
+
+} // namespace bergamo::dem

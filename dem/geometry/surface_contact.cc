@@ -1,0 +1,351 @@
+#include "dem/geometry/surface_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bergamo::dem
+{
+
+SurfaceLook::Foot SurfaceLook::foot_against(const Vec3 &normal, const Vec3 &point) const
+{
+  const PlacedSupport<double> s = support(body, Vec3(-normal));
+  return {normal, s.arm, s.height - normal.dot(body.position - point)};
+}
+
+const SurfaceLook::FaceFoot &SurfaceLook::on_face(const std::int32_t f)
+{
+  for (const FaceFoot &known : faces)
+    if (known.face == f)
+      return known;
+  return faces.emplace_back(look_at_face(f));
+}
+
+const SurfaceLook::EdgeFoot &SurfaceLook::on_edge(const std::int32_t e)
+{
+  for (const EdgeFoot &known : edges)
+    if (known.edge == e)
+      return known;
+  const EdgeFoot found = look_at_edge(e);
+  return edges.emplace_back(found);
+}
+
+/// One copy of machine code: two would round differently, and indices add up only if all ask for the same signs.
+[[gnu::noinline]] SurfaceLook::FaceFoot SurfaceLook::look_at_face(const std::int32_t f) const
+{
+  const Triangle &t = surface.topology.triangle[f];
+  const Vec3 &a = surface.node[t[0]];
+  const Vec3 normal = (surface.node[t[1]] - a).cross(surface.node[t[2]] - a).normalized();
+  FaceFoot found{f, foot_against(normal, a), {}, {}};
+  for (int k = 0; k < 3; ++k)
+  {
+    const SurfaceTopology::Edge &e = surface.topology.edge[surface.topology.edge_of[f][k]];
+    const Vec3 along = surface.node[e.to] - surface.node[e.from]; // the same for both faces
+    const double side = normal.cross(along).dot(body.position + found.foot.arm - surface.node[e.from]);
+    found.is_inside[k] = e.left == f ? side >= 0. : side < 0.;
+    found.inside[k] = (e.left == f ? side : -side) / along.norm();
+  }
+  return found;
+}
+
+/// Whether the deepest point against a face lies on the face's side of its edge.
+bool SurfaceLook::is_inside(const std::int32_t f, const std::int32_t e)
+{
+  const auto &its_edges = surface.topology.edge_of[f];
+  return on_face(f).is_inside[std::find(its_edges.begin(), its_edges.end(), e) - its_edges.begin()];
+}
+
+double SurfaceLook::distance_to_edges(const std::int32_t f)
+{
+  const auto &inside = on_face(f).inside;
+  return *std::min_element(inside.begin(), inside.end());
+}
+
+/// Index of the place on the line of an edge: places on both faces count, as they would on infinite ones.
+int SurfaceLook::index_of_line(const std::int32_t e)
+{
+  const SurfaceTopology::Edge &between = surface.topology.edge[e];
+  const bool has_right = between.right != SurfaceTopology::none;
+  return 1 - is_inside(between.left, e) - (has_right && is_inside(between.right, e));
+}
+
+/// Whether the place on the line of an edge lies on the edge's side of one of its nodes.
+bool SurfaceLook::is_beyond(const std::int32_t e, const std::int32_t node)
+{
+  const EdgeFoot &found = on_edge(e);
+  return surface.topology.edge[e].from == node ? found.is_beyond_from : found.is_beyond_to;
+}
+
+int SurfaceLook::index_of_face(const std::int32_t f)
+{
+  const auto &inside = on_face(f).is_inside;
+  return inside[0] && inside[1] && inside[2];
+}
+
+int SurfaceLook::index_of_edge(const std::int32_t e)
+{
+  const int index = index_of_line(e);
+  const SurfaceTopology::Edge &ends = surface.topology.edge[e];
+  return index != 0 && is_beyond(e, ends.from) && is_beyond(e, ends.to) ? index : 0;
+}
+
+/// What the sectors and rays of the infinite fan leave of its one place.
+int SurfaceLook::index_of_vertex(const std::int32_t node)
+{
+  const SurfaceTopology &t = surface.topology;
+  int index = 1;
+  for (const auto &[f, place] : t.corners_of(node))
+    index -= is_inside(f, t.edge_of[f][place]) && is_inside(f, t.edge_of[f][(place + 2) % 3]);
+  for (const std::int32_t e : t.edges_of(node))
+    if (const int of_line = index_of_line(e); of_line != 0 && is_beyond(e, node))
+      index -= of_line;
+  return index;
+}
+
+int SurfaceLook::index_of(const Feature feature, const std::int32_t number)
+{
+  switch (feature)
+  {
+  case Feature::face:
+    return index_of_face(number);
+  case Feature::edge:
+    return index_of_edge(number);
+  default:
+    return index_of_vertex(number);
+  }
+}
+
+/// The normal turns from one face's to the other's until the deepest point lies straight above the edge: the slope
+/// changes its sign between, so the angle is found for any body by steps of Newton kept within the bracket.
+[[gnu::noinline]] SurfaceLook::EdgeFoot SurfaceLook::look_at_edge(const std::int32_t e)
+{
+  const SurfaceTopology::Edge &ends = surface.topology.edge[e];
+  const Vec3 &point = surface.node[ends.from];
+  const Vec3 along = (surface.node[ends.to] - point).normalized(), first = on_face(ends.left).foot.normal,
+             across = first.cross(along);
+  // `across` points into the left face; the normal goes from `first` towards minus it where the edge is convex.
+  double end = M_PI;
+  if (ends.right != SurfaceTopology::none)
+  {
+    const Vec3 &other = on_face(ends.right).foot.normal;
+    end = std::atan2(-across.dot(other), first.dot(other));
+  }
+  double low = std::min(0., end), high = std::max(0., end), angle = 0.5 * (low + high);
+  Foot foot{};
+  double last = std::numeric_limits<double>::infinity(); // slope; where Newton's steps do not halve it, the bracket is
+  constexpr int most = 100;                              // halvings from pi to the resolution are 60
+  for (int n = 0; n < most; ++n)
+  {
+    const Vec3 normal = first * std::cos(angle) - across * std::sin(angle);
+    const Vec3 turned = -first * std::sin(angle) - across * std::cos(angle); // d normal / d angle
+    TangentFrame frame;
+    frame << turned, along;
+    const PlacedSupport<double> s = support(body, Vec3(-normal), frame);
+    foot = {normal, s.arm, s.height - normal.dot(body.position - point)};
+    const double slope = -turned.dot(body.position + s.arm - point); // of the overlap
+    const double curvature = s.radii.r11 - foot.overlap;
+    (slope > 0. ? high : low) = angle;
+    const double newton = angle - slope / curvature;
+    const bool gets_on = std::abs(slope) < 0.5 * last && curvature > 0. && newton > low && newton < high;
+    const double next = gets_on ? newton : 0.5 * (low + high);
+    if (slope == 0. || std::abs(next - angle) < 1e-15)
+      break;
+    last = std::abs(slope);
+    angle = next;
+  }
+  const Vec3 deepest = body.position + foot.arm;
+  return {e, foot, along.dot(deepest - point) > 0., along.dot(deepest - surface.node[ends.to]) <= 0.};
+}
+
+/// Newton on the sphere, or on the circle about a line, for the normal along which the body is least deep at a point,
+/// with steps that never raise it.
+/// @param guess unit vector; @param along unit vector of the line, or none
+SurfaceLook::Foot SurfaceLook::foot_at(const Vec3 &point, const Vec3 &guess, const Vec3 *along) const
+{
+  const auto beside_line = [&](const Vec3 &v) -> Vec3 { return along ? Vec3(v - *along * along->dot(v)) : v; };
+  const Vec3 line = beside_line(body.position - point);
+  Vec3 normal = guess;
+  constexpr int most = 100;
+  for (int n = 0; n < most; ++n)
+  {
+    TangentFrame frame = tangent_frame(normal);
+    if (along)
+      frame << along->cross(normal), *along;
+    const PlacedSupport<double> s = support(body, Vec3(-normal), frame);
+    const double overlap = s.height - normal.dot(line);
+    Vec2 slope = -in_frame(frame, Vec3(line + s.arm));
+    CurvatureRadii<double> hessian = s.radii - overlap;
+    if (along)
+    {
+      slope[1] = 0.;
+      hessian.r22 = std::abs(hessian.r11);
+      hessian.r12 = 0.;
+    }
+    const double mean = 0.5 * (hessian.r11 + hessian.r22);
+    const double radius = std::hypot(0.5 * (hessian.r11 - hessian.r22), hessian.r12), low = mean - radius;
+    const double least = 1e-6 * s.height;
+    if (low < least)
+      hessian = hessian - (low - std::max(least, std::abs(low)));
+    Vec2 step = -hessian.solve(slope);
+    step *= std::min(1., 0.5 / step.norm());
+    if (!(step.norm() > 1e-15))
+      break;
+    bool is_better = false;
+    for (double share = 1.; share > 1e-6 && !is_better; share *= 0.5)
+    {
+      const Vec3 trial = (normal + from_frame(frame, Vec2(step * share))).normalized();
+      const PlacedSupport<double> t = support(body, Vec3(-trial));
+      const double trial_overlap = t.height - trial.dot(line);
+      const Vec3 gap = beside_line(line + t.arm), beside = gap - trial * trial.dot(gap);
+      // To rounding it is flat near the minimum: there the smaller slope decides.
+      is_better =
+          trial_overlap < overlap || (trial_overlap <= overlap + 1e-15 * s.height && beside.norm() < slope.norm());
+      if (is_better)
+        normal = trial;
+    }
+    if (!is_better)
+      break;
+  }
+  return foot_against(normal, point);
+}
+
+/// The cone of normals of a vertex lies between those of its faces and edges, and a body may have several least depths
+/// at a point: searches start from all of these normals and from the middle of the body.
+SurfaceLook::Foot SurfaceLook::foot_on_vertex(const std::int32_t node)
+{
+  const Vec3 &point = surface.node[node];
+  Vec3 mean = Vec3::Zero();
+  std::vector<Vec3> starts;
+  for (const auto &[f, place] : surface.topology.corners_of(node))
+  {
+    starts.push_back(on_face(f).foot.normal);
+    mean += starts.back();
+  }
+  for (const std::int32_t e : surface.topology.edges_of(node))
+    starts.push_back(on_edge(e).foot.normal);
+  const Vec3 line = body.position - point;
+  starts.push_back(mean.dot(line) > 0. ? line.normalized() : starts[0]);
+  std::vector<Foot> tried;
+  for (const Vec3 &start : starts)
+    tried.push_back(foot_against(start, point));
+  const auto is_less_deep = [](const Foot &a, const Foot &b) { return a.overlap < b.overlap; };
+  std::sort(tried.begin(), tried.end(), is_less_deep);
+  if (!(tried[0].overlap > 0.))
+    return tried[0]; // apart
+  Foot least = foot_at(point, tried[0].normal, nullptr);
+  for (std::size_t k = 1; k < tried.size(); ++k)
+    if ((tried[k].normal - tried[k - 1].normal).squaredNorm() > 1e-6)
+      if (const Foot other = foot_at(point, tried[k].normal, nullptr); other.overlap < least.overlap)
+        least = other;
+  return least;
+}
+
+SurfaceLook::Foot SurfaceLook::foot_on(const Feature feature, const std::int32_t number)
+{
+  switch (feature)
+  {
+  case Feature::face:
+    return on_face(number).foot;
+  case Feature::edge:
+    return on_edge(number).foot;
+  default:
+    return foot_on_vertex(number);
+  }
+}
+
+double SurfaceLook::gap_along(const Vec3 &normal, const std::span<const std::int32_t> nodes) const
+{
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const std::int32_t node : nodes)
+    highest = std::max(highest, normal.dot(surface.node[node] - body.position));
+  return -support(body, Vec3(-normal)).height - highest;
+}
+
+double SurfaceLook::least_gap(const Feature feature, const std::int32_t number)
+{
+  const SurfaceTopology &t = surface.topology;
+  const auto beside_edge = [&](const std::int32_t e)
+  {
+    const SurfaceTopology::Edge &ends = t.edge[e];
+    const Vec3 along = (surface.node[ends.to] - surface.node[ends.from]).normalized();
+    const Vec3 &across = on_face(ends.left).foot.normal;
+    const Vec3 line = body.position - surface.node[ends.from], beside = (line - along * along.dot(line)).normalized();
+    const bool is_better =
+        foot_against(beside, surface.node[ends.from]).overlap < foot_against(across, surface.node[ends.from]).overlap;
+    return foot_at(surface.node[ends.from], is_better ? beside : across, &along);
+  };
+  if (feature == Feature::vertex)
+    return -foot_on_vertex(number).overlap;
+  if (feature == Feature::edge)
+    return -beside_edge(number).overlap;
+  double gap = -on_face(number).foot.overlap; // then along what parts the body from the edges that it is beyond
+  for (int k = 0; k < 3 && gap <= 0.; ++k)
+    if (!is_inside(number, t.edge_of[number][k]))
+      gap = std::max(gap, gap_along(beside_edge(t.edge_of[number][k]).normal, t.triangle[number]));
+  return gap;
+}
+
+std::optional<SurfacePlace> SurfaceLook::place_at(const Feature feature, const std::int32_t number)
+{
+  const SurfaceTopology &t = surface.topology;
+  if (feature == Feature::face && !(on_face(number).foot.overlap > 0.))
+    return {};
+  const int index = index_of(feature, number);
+  if (index == 0)
+    return {};
+  const std::int32_t node = feature == Feature::face   ? t.triangle[number][0]
+                            : feature == Feature::edge ? t.edge[number].from
+                                                       : number;
+  const Foot foot = foot_on(feature, number);
+  const double deepest = deepest_overlap * std::min({body.shape.r1, body.shape.r2, body.shape.r3});
+  const bool is_in_front = foot.normal.dot(body.position - surface.node[node]) > 0.;
+  if (!(foot.overlap > 0.) || foot.overlap > deepest || !is_in_front)
+    return {};
+  return SurfacePlace{feature, number, index, foot.normal, foot.overlap, foot.arm};
+}
+
+std::vector<SurfacePlace> find_surface_places(const BodyPose &body, const SurfaceView &surface,
+                                              const std::span<const std::int32_t> faces)
+{
+  const SurfaceTopology &t = surface.topology;
+  std::vector<std::int32_t> edges, nodes;
+  for (const std::int32_t f : faces)
+  {
+    edges.insert(edges.end(), t.edge_of[f].begin(), t.edge_of[f].end());
+    nodes.insert(nodes.end(), t.triangle[f].begin(), t.triangle[f].end());
+  }
+  for (auto *list : {&edges, &nodes})
+  {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  SurfaceLook look(body, surface);
+  std::vector<SurfacePlace> places;
+  const auto add_all = [&](const Feature feature, const std::span<const std::int32_t> numbers)
+  {
+    for (const std::int32_t number : numbers)
+      if (const auto place = look.place_at(feature, number))
+        places.push_back(*place);
+  };
+  add_all(Feature::face, faces);
+  add_all(Feature::edge, edges);
+  add_all(Feature::vertex, nodes);
+  return places;
+}
+
+int sum_of_indices(const BodyPose &body, const SurfaceView &surface)
+{
+  const SurfaceTopology &t = surface.topology;
+  SurfaceLook look(body, surface);
+  int sum = 0;
+  for (std::size_t f = 0; f < t.n_faces(); ++f)
+    sum += look.index_of(Feature::face, static_cast<std::int32_t>(f));
+  for (std::size_t e = 0; e < t.n_edges(); ++e)
+    sum += look.index_of(Feature::edge, static_cast<std::int32_t>(e));
+  for (std::size_t node = 0; node < t.n_nodes(); ++node)
+    if (!t.corners_of(static_cast<std::int32_t>(node)).empty())
+      sum += look.index_of(Feature::vertex, static_cast<std::int32_t>(node));
+  return sum;
+}
+
+} // namespace bergamo::dem

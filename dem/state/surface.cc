@@ -1,0 +1,107 @@
+#include "dem/state/surface.h"
+
+#include "dem/core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace bergamo::dem
+{
+
+Surface::Surface(std::vector<Vec3> nodes, std::vector<Triangle> triangles)
+    : topology(std::move(triangles), nodes.size()), node(std::move(nodes)), velocity(node.size(), Vec3::Zero()),
+      drift_velocity(velocity), force(velocity)
+{
+}
+
+void Surface::advance(const double time_step)
+{
+  double fastest = 0.;
+  for (std::size_t n = 0; n < node.size(); ++n)
+  {
+    drift_velocity[n] = velocity[n];
+    node[n] += time_step * velocity[n];
+    fastest = std::max(fastest, velocity[n].squaredNorm());
+  }
+  rests = fastest == 0.;
+  motion += time_step * std::sqrt(fastest);
+}
+
+void Surface::validate(const std::int32_t n_materials) const
+{
+  require(topology.n_faces() > 0, "number of triangles of a surface", 0, "at least 1");
+  for (const auto *values : {&node, &velocity, &drift_velocity, &force})
+  {
+    require(values->size() == topology.n_nodes(), "number of places, velocities or forces of a surface's nodes",
+            values->size(), "that of its nodes, " + std::to_string(topology.n_nodes()));
+    for (const Vec3 &value : *values)
+      require(value.allFinite(), "place, velocity or force of a surface's node", value.sum(), "finite");
+  }
+  for (std::size_t f = 0; f < topology.n_faces(); ++f)
+  {
+    const Triangle &t = topology.triangle[f];
+    const Vec3 a = node[t[1]] - node[t[0]], b = node[t[2]] - node[t[0]];
+    if (!(a.cross(b).norm() > 1e-12 * std::max(a.squaredNorm(), b.squaredNorm())))
+      reject("triangle ", f, " of a surface (nodes ", t[0], ", ", t[1], ", ", t[2],
+             ") has no area: remove it, and let its neighbours meet");
+  }
+  require(material >= 0 && material < n_materials, "material of a surface", material,
+          "the number of one of the " + std::to_string(n_materials) + " materials of the table, counted from 0");
+}
+
+std::vector<std::int32_t> Surface::numbers() const
+{
+  std::vector<std::int32_t> numbers;
+  for (const Triangle &t : topology.triangle)
+    numbers.insert(numbers.end(), t.begin(), t.end());
+  return numbers;
+}
+
+void Surface::restore(const std::vector<std::int32_t> &numbers)
+{
+  std::vector<Triangle> triangles(numbers.size() / 3);
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    triangles[k / 3][k % 3] = numbers[k];
+  topology = SurfaceTopology(std::move(triangles), node.size());
+  rests = std::all_of(drift_velocity.begin(), drift_velocity.end(), [](const Vec3 &v) { return v.isZero(0.); });
+}
+
+FeatureOfSurface feature_of(const std::span<const Surface> surfaces, std::int32_t count)
+{
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+  {
+    const SurfaceTopology &t = surfaces[s].topology;
+    const auto surface = static_cast<std::int32_t>(s);
+    for (const auto &[feature, n] : {std::pair(Feature::face, t.n_faces()), std::pair(Feature::edge, t.n_edges()),
+                                     std::pair(Feature::vertex, t.n_nodes())})
+    {
+      if (count < static_cast<std::int32_t>(n))
+        return {surface, feature, count};
+      count -= static_cast<std::int32_t>(n);
+    }
+  }
+  return {-1, Feature::face, -1};
+}
+
+NodeShares node_shares(const Surface &surface, const Feature feature, const std::int32_t number, const Vec3 &point)
+{
+  if (feature == Feature::vertex)
+    return {{number, number, number}, {1., 0., 0.}};
+  if (feature == Feature::edge)
+  {
+    const SurfaceTopology::Edge &e = surface.topology.edge[number];
+    const Vec3 along = surface.node[e.to] - surface.node[e.from];
+    const double share = along.dot(point - surface.node[e.from]) / along.squaredNorm();
+    return {{e.from, e.to, e.from}, {1. - share, share, 0.}};
+  }
+  const Triangle &t = surface.topology.triangle[number];
+  const Vec3 a = surface.node[t[1]] - surface.node[t[0]], b = surface.node[t[2]] - surface.node[t[0]],
+             p = point - surface.node[t[0]], normal = a.cross(b);
+  const double area = normal.squaredNorm();
+  const double of_a = p.cross(b).dot(normal) / area, of_b = a.cross(p).dot(normal) / area;
+  return {t, {1. - of_a - of_b, of_a, of_b}};
+}
+
+} // namespace bergamo::dem

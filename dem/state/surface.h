@@ -1,0 +1,94 @@
+#pragma once
+
+#include "dem/core/types.h"
+#include "dem/geometry/surface_contact.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bergamo::dem
+{
+
+/// Surface of triangles that grains touch on the side of its normals. Its nodes move as they are told: who owns it sets
+/// velocities, or places together with the velocities that led there, and takes the nodes' forces.
+struct Surface
+{
+  Surface() = default;
+
+  /// At rest. Throws ConfigError for triangles that make no surface, see SurfaceTopology.
+  /// @param nodes places [m]; @param triangles anticlockwise as seen from the grains
+  Surface(std::vector<Vec3> nodes, std::vector<Triangle> triangles);
+
+  SurfaceView view() const { return {topology, node}; }
+  std::size_t n_features() const { return topology.n_faces() + topology.n_edges() + topology.n_nodes(); }
+  bool is_at_rest() const { return rests; } ///< over the step before
+
+  /// Moves on with the velocities. @param time_step [s]
+  void advance(double time_step);
+
+  /// Throws ConfigError for numbers that are not finite, arrays of another length than the nodes, triangles without an
+  /// area, or a material that the table lacks. @param n_materials of the table
+  void validate(std::int32_t n_materials) const;
+
+  SurfaceTopology topology;
+  std::vector<Vec3> node;           ///< places [m]
+  std::vector<Vec3> velocity;       ///< of the drift to come; may be set between steps [m/s]
+  std::vector<Vec3> drift_velocity; ///< over the step before, which led to the present places [m/s]
+  std::vector<Vec3> force;          ///< of the grains on the nodes at this step, with the contacts' weights [N]
+  std::vector<Vec3> old_force;      ///< the same of the step before
+  double motion = 0.;               ///< path that no node has exceeded since the start [m]
+  double work = 0.;                 ///< done by the surface on the grains since the start [J]
+  std::int32_t material = 1;        ///< of the simulation's table
+
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    std::vector<std::int32_t> nodes_of_triangles = self.numbers();
+    visit("triangles", nodes_of_triangles);
+    visit("node", self.node);
+    visit("velocity", self.velocity);
+    visit("drift_velocity", self.drift_velocity);
+    visit("force", self.force);
+    visit("motion", self.motion);
+    visit("work", self.work);
+    visit("material", self.material);
+    if constexpr (Visit::is_reading)
+      self.restore(nodes_of_triangles);
+  }
+
+private:
+  std::vector<std::int32_t> numbers() const;
+  void restore(const std::vector<std::int32_t> &nodes_of_triangles);
+
+  bool rests = true;
+};
+
+/// A feature among those of all surfaces, counted surface by surface: faces, edges, vertices.
+struct FeatureOfSurface
+{
+  std::int32_t surface;
+  Feature feature;
+  std::int32_t number;
+};
+
+FeatureOfSurface feature_of(std::span<const Surface> surfaces, std::int32_t count);
+
+/// Shares of the nodes of a feature at a point on it; they add up to 1.
+struct NodeShares
+{
+  std::array<std::int32_t, 3> node;
+  std::array<double, 3> share; ///< 0 for nodes that the feature lacks
+
+  Vec3 of(std::span<const Vec3> values) const
+  {
+    return share[0] * values[node[0]] + share[1] * values[node[1]] + share[2] * values[node[2]];
+  }
+};
+
+/// @param point in space: what is straight below it on the face, or on the line of the edge, counts [m]
+NodeShares node_shares(const Surface &surface, Feature feature, std::int32_t number, const Vec3 &point);
+
+} // namespace bergamo::dem

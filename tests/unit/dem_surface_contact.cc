@@ -1,0 +1,328 @@
+#include "tests/surfaces.h"
+
+#include "dem/core/error.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace bergamo;
+using namespace bergamo::dem;
+using namespace bergamo::dem::test;
+
+namespace
+{
+
+/// Energy of all places as Hertz's, without its constant, and the force on the body.
+struct Response
+{
+  double energy = 0.;
+  Vec3 force = Vec3::Zero();
+};
+
+Response response(const BodyPose &body, const Surface &surface, const std::vector<std::int32_t> &faces)
+{
+  Response r;
+  for (const SurfacePlace &p : find_surface_places(body, surface.view(), faces))
+  {
+    r.energy += p.index * std::pow(p.overlap, 2.5);
+    r.force += p.index * 2.5 * std::pow(p.overlap, 1.5) * p.normal;
+  }
+  return r;
+}
+
+Superquadric sphere(const double radius)
+{
+  Superquadric s;
+  s.half_axes.setConstant(radius);
+  return s;
+}
+
+BodyPose placed(const Superquadric &shape, const Vec3 &position, std::mt19937_64 &random)
+{
+  return make_pose(shape, position, draw_orientation(random));
+}
+
+} // namespace
+
+TEST_CASE("a surface knows its neighbours", "[surface]")
+{
+  const Surface closed = cube();
+  REQUIRE(closed.topology.is_closed());
+  REQUIRE(closed.topology.n_edges() == 18);
+  for (std::int32_t node = 0; node < 8; ++node)
+    REQUIRE(closed.topology.corners_of(node).size() == closed.topology.edges_of(node).size());
+  std::mt19937_64 random(1);
+  const Surface open = grid_surface(
+      3, [](double, double) { return 0.; }, 0., random);
+  REQUIRE(!open.topology.is_closed());
+  REQUIRE(open.topology.n_nodes() + open.topology.n_faces() == open.topology.n_edges() + 1); // Euler
+}
+
+TEST_CASE("surfaces that are none are refused by triangle and node", "[surface]")
+{
+  using Catch::Contains;
+  const auto make = [](std::vector<Triangle> t) { return SurfaceTopology(std::move(t), 5); };
+  REQUIRE_THROWS_WITH(make({{0, 1, 5}}), Contains("triangle 0") && Contains("node 5"));
+  REQUIRE_THROWS_WITH(make({{0, 1, 2}, {1, 3, 3}}), Contains("triangle 1") && Contains("node 3 twice"));
+  REQUIRE_THROWS_WITH(make({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}), Contains("0, 1 and 2") && Contains("two triangles"));
+  REQUIRE_THROWS_WITH(make({{0, 1, 2}, {0, 1, 3}}), Contains("turn one of them around"));
+  REQUIRE_THROWS_WITH(make({{0, 1, 2}, {0, 3, 4}}), Contains("node 0") && Contains("hang together"));
+  REQUIRE_NOTHROW(make({{0, 1, 2}, {1, 0, 3}, {3, 0, 4}}));
+}
+
+TEST_CASE("triangles of one plane are one plane", "[surface]")
+{
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> unit(0., 1.);
+  const Surface flat = grid_surface(
+      12, [](double, double) { return 0.; }, 0.4, random);
+  const std::vector<std::int32_t> faces = flat.all_faces();
+  for (int k = 0; k < 2000; ++k)
+  {
+    // The plane turned and moved, so that nodes lie in it to rounding alone.
+    const Mat3 turn = draw_orientation(random).toRotationMatrix();
+    Surface surface = flat;
+    for (Vec3 &x : surface.node)
+      x = turn * x;
+    BodyPose body = placed(random_grain(random), Vec3::Zero(), random);
+    const Vec3 normal = turn.col(2);
+    const PlacedSupport<double> s = support(body, -normal);
+    const double overlap = s.height * std::pow(10., -1. - 4. * unit(random));
+    // Deepest above the plane's inner part; in a third of the cases on a node or on the line to its neighbour.
+    Vec3 foot = turn * Vec3(3. + 6. * unit(random), 3. + 6. * unit(random), 0.);
+    const std::size_t node = 13 * (3 + k % 7) + 3 + k % 6;
+    if (k % 3 == 1)
+      foot = surface.node[node];
+    if (k % 3 == 2)
+      foot = surface.node[node] + unit(random) * (surface.node[node + 1] - surface.node[node]);
+    body.position = foot - s.arm - overlap * normal;
+
+    double sum = 0.;
+    int n = 0;
+    for (const SurfacePlace &p : find_surface_places(body, surface.view(), faces))
+    {
+      n += p.index;
+      sum += p.index * p.overlap;
+      REQUIRE((p.normal - normal).norm() < 1e-12);
+      REQUIRE((p.arm - s.arm).norm() < 1e-7);
+    }
+    REQUIRE(n == 1);
+    REQUIRE(std::abs(sum - overlap) < 1e-13);
+  }
+}
+
+TEST_CASE("places on any surface add up to one", "[surface]")
+{
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0., 1.);
+  for (int k = 0; k < 400; ++k)
+  {
+    const double rough = std::pow(10., -3. + 3.2 * unit(random));
+    const Surface terrain = grid_surface(
+        5, [&](double, double) { return rough * unit(random); }, 0.24, random);
+    for (int m = 0; m < 10; ++m)
+    {
+      const Superquadric shape = random_grain(random);
+      const BodyPose body =
+          placed(shape, Vec3(5. * unit(random), 5. * unit(random), rough + 1.6 + unit(random)), random);
+      REQUIRE(sum_of_indices(body, terrain.view()) == 1);
+    }
+  }
+  const Surface closed = cube(); // a sphere's worth of normals, of which those on the far side see the body too
+  for (int m = 0; m < 100; ++m)
+  {
+    const Vec3 towards = draw_orientation(random) * Vec3::UnitX();
+    const BodyPose body = placed(sphere(0.5), 3. * towards, random);
+    const auto places = find_surface_places(body, closed.view(), closed.all_faces());
+    REQUIRE(places.empty());
+  }
+}
+
+TEST_CASE("forces on a body are the derivatives of one continuous energy", "[surface]")
+{
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> unit(0., 1.);
+  int n_bent = 0;
+  for (int k = 0; k < 300; ++k)
+  {
+    // From nearly flat, where several places are touched at once, to rough.
+    const double rough = std::pow(10., -4. + 3.5 * unit(random));
+    const Surface terrain = grid_surface(
+        6, [&](double, double) { return rough * unit(random); }, 0.2, random);
+    const std::vector<std::int32_t> faces = terrain.all_faces();
+    // Deepest near the middle node, where several faces may be touched.
+    BodyPose body = placed(random_grain(random), Vec3::Zero(), random);
+    const PlacedSupport<double> lowest = support(body, Vec3(-Vec3::UnitZ()));
+    body.position = terrain.node[24] - lowest.arm + 0.1 * Vec3(unit(random) - 0.5, unit(random) - 0.5, 0.);
+    const double start = body.position[2];
+    // Down to a slight overlap.
+    double low = start - 1., high = start + 1.;
+    for (int n = 0; n < 50; ++n)
+    {
+      body.position[2] = 0.5 * (low + high);
+      (find_surface_places(body, terrain.view(), faces).empty() ? high : low) = body.position[2];
+    }
+    body.position[2] -= 0.01;
+    const Vec3 along = draw_orientation(random) * Vec3::UnitX();
+    const double step = 1e-5;
+    Response before = response(body, terrain, faces);
+    std::size_t n_places = 0;
+    for (int n = 0; n < 100; ++n)
+    {
+      body.position += step * Vec3(along[0], along[1], 0.);
+      const Response now = response(body, terrain, faces);
+      const double work = 0.5 * step * (before.force + now.force).dot(Vec3(along[0], along[1], 0.));
+      // The trapezoidal rule's error: the cube of the step times the second derivative, which is bounded only where
+      // the overlap is not zero; a force that jumps would leave the step times the jump.
+      REQUIRE(std::abs(now.energy - before.energy + work) < 2e-5 * step * (before.force.norm() + 1e-3));
+      REQUIRE((now.force - before.force).norm() < 50. * step);
+      n_places = std::max(n_places, find_surface_places(body, terrain.view(), faces).size());
+      before = now;
+    }
+    n_bent += n_places > 1;
+  }
+  REQUIRE(n_bent > 20); // and with places that count against one another among them
+}
+
+TEST_CASE("a body that touches a convex polyhedron does so once, where it is least deep", "[surface]")
+{
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0., 1.);
+  const Surface surface = cube();
+  std::array<int, 3> n_of{};
+  for (int k = 0; k < 150; ++k)
+  {
+    const Superquadric shape = random_grain(random);
+    const Vec3 towards = draw_orientation(random) * Vec3::UnitX();
+    const Quaternion orientation = draw_orientation(random);
+    const auto overlap_along = [&](const BodyPose &body, const Vec3 &c) // the cube's support is the sum of |c|
+    { return c.cwiseAbs().sum() + support(body, Vec3(-c)).height - c.dot(body.position); };
+    // The least over all directions by a search that knows neither derivatives nor features.
+    const auto least = [&](const BodyPose &body)
+    {
+      Vec3 best = body.position.normalized();
+      double value = overlap_along(body, best);
+      for (double reach = 0.5; reach > 1e-9; reach *= 0.8)
+        for (int n = 0; n < 60; ++n)
+        {
+          const Vec3 trial = (best + reach * (draw_orientation(random) * Vec3::UnitX())).normalized();
+          if (const double there = overlap_along(body, trial); there < value)
+          {
+            value = there;
+            best = trial;
+          }
+        }
+      return std::pair(value, best);
+    };
+    const auto at = [&](const double distance) { return make_pose(shape, distance * towards, orientation); };
+    double distance = 6.; // from outside to a slight overlap
+    while (overlap_along(at(distance), least(at(distance)).second) < 0.)
+      distance -= 0.05;
+    const BodyPose body = at(distance);
+    const auto places = find_surface_places(body, surface.view(), surface.all_faces());
+    const double overlap = least(body).first;
+    REQUIRE(places.size() == 1);
+    REQUIRE(places[0].index == 1);
+    REQUIRE(overlap_along(body, places[0].normal) == Approx(places[0].overlap).margin(1e-13));
+    REQUIRE(overlap > places[0].overlap - 1e-13); // no direction is less deep, and the search ends near
+    REQUIRE(overlap < places[0].overlap + 1e-3);
+    ++n_of[static_cast<int>(places[0].feature)];
+  }
+  REQUIRE(*std::min_element(n_of.begin(), n_of.end()) > 5);
+}
+
+TEST_CASE("a sphere in a valley has two contacts, on a ridge one", "[surface]")
+{
+  std::mt19937_64 random(6);
+  const double slope = 0.5, overlap = 1e-3;
+  const Surface valley = ridge(-slope), crest = ridge(slope);
+  const BodyPose in_valley = placed(sphere(1.), Vec3(0., 0.3, (1. - overlap) / std::cos(slope)), random);
+  const auto two = find_surface_places(in_valley, valley.view(), valley.all_faces());
+  REQUIRE(two.size() == 2);
+  for (const SurfacePlace &p : two)
+  {
+    REQUIRE(p.feature == Feature::face);
+    REQUIRE(p.overlap == Approx(overlap));
+  }
+  REQUIRE((two[0].normal + two[1].normal).normalized().isApprox(Vec3::UnitZ(), 1e-12));
+  const Vec3 lean = Vec3(std::sin(0.3), 0., std::cos(0.3)); // within the slope: on the edge
+  const BodyPose on_crest = placed(sphere(1.), (1. - overlap) * lean + Vec3(0., 0.3, 0.), random);
+  const auto one = find_surface_places(on_crest, crest.view(), crest.all_faces());
+  REQUIRE(one.size() == 1);
+  REQUIRE(one[0].feature == Feature::edge);
+  REQUIRE(one[0].overlap == Approx(overlap));
+  REQUIRE(one[0].normal.isApprox(lean, 1e-9));
+}
+
+TEST_CASE("two faces that hardly bend are touched as one", "[surface]")
+{
+  std::mt19937_64 random(7);
+  const double overlap = 1e-2, plane = 2.5 * std::pow(overlap, 1.5);
+  double last = plane;
+  for (const double slope : {-1e-8, -1e-5, -1e-3, -1e-2, -0.03, -0.1, -0.3})
+  {
+    const Surface valley = ridge(slope);
+    const BodyPose body = placed(sphere(1.), Vec3(0., 0.3, (1. - overlap) / std::cos(slope)), random);
+    const double force = response(body, valley, valley.all_faces()).force[2];
+    REQUIRE(force > 0.999 * last); // rises with the bend, from that of the plane to twice that
+    if (slope > -1e-4)
+      REQUIRE(force == Approx(plane).epsilon(1e-4));
+    if (slope < -0.2)
+      REQUIRE(force == Approx(2. * plane * std::cos(slope)));
+    last = force;
+  }
+}
+
+TEST_CASE("the rim of an open surface is round", "[surface]")
+{
+  std::mt19937_64 random(8);
+  const Surface sheet = grid_surface(
+      2, [](double, double) { return 0.; }, 0., random);
+  const BodyPose beside = placed(sphere(1.), Vec3(2. + 0.995 * std::cos(0.5), 1.1, 0.995 * std::sin(0.5)), random);
+  const auto at_edge = find_surface_places(beside, sheet.view(), sheet.all_faces());
+  REQUIRE(at_edge.size() == 1);
+  REQUIRE(at_edge[0].feature == Feature::edge);
+  REQUIRE(at_edge[0].overlap == Approx(0.005));
+  const Vec3 out = Vec3(1., 1., 0.7).normalized();
+  const BodyPose at_corner = placed(sphere(1.), Vec3(2., 2., 0.) + 0.995 * out, random);
+  const auto corner = find_surface_places(at_corner, sheet.view(), sheet.all_faces());
+  REQUIRE(corner.size() == 1);
+  REQUIRE(corner[0].feature == Feature::vertex);
+  REQUIRE(corner[0].normal.isApprox(out, 1e-9));
+}
+
+TEST_CASE("bounds of the gap between a body and a feature hold", "[surface]")
+{
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(0., 1.);
+  int n_bounds = 0;
+  for (int k = 0; k < 300; ++k)
+  {
+    const Surface terrain = grid_surface(
+        4, [&](double, double) { return 0.3 * unit(random); }, 0.24, random);
+    const Superquadric shape = random_grain(random);
+    const BodyPose body = placed(shape, Vec3(4. * unit(random), 4. * unit(random), 0.5 + 2. * unit(random)), random);
+    const SurfaceView view = terrain.view();
+    SurfaceLook look(body, view);
+    const auto f = static_cast<std::int32_t>(k % terrain.topology.n_faces());
+    const Triangle &t = terrain.topology.triangle[f];
+    const auto check = [&](const double gap, const Vec3 &point)
+    {
+      n_bounds += gap > 0.;
+      if (gap > 0.) // no ball of that radius about a point of the feature reaches into the body
+        for (int n = 0; n < 50; ++n)
+        {
+          const Vec3 x = point + 0.999 * gap * (draw_orientation(random) * Vec3::UnitX()) - body.position;
+          REQUIRE(inside_outside(shape, body.rotation.transpose() * x) > 1.);
+        }
+    };
+    const double a = unit(random), b = unit(random) * (1. - a);
+    check(look.least_gap(Feature::face, f),
+          a * terrain.node[t[0]] + b * terrain.node[t[1]] + (1. - a - b) * terrain.node[t[2]]);
+    check(look.least_gap(Feature::edge, terrain.topology.edge_of[f][0]),
+          a * terrain.node[t[0]] + (1. - a) * terrain.node[t[1]]);
+    check(look.least_gap(Feature::vertex, t[2]), terrain.node[t[2]]);
+  }
+  REQUIRE(n_bounds > 200);
+}

@@ -1,0 +1,288 @@
+#include "dem/core/archive.h"
+#include "dem/core/error.h"
+#include "dem/io/snapshot.h"
+#include "dem/simulation/simulation.h"
+
+#include "tests/surfaces.h"
+#include "tests/temporary_folder.h"
+#include "tests/threads.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace bergamo;
+using namespace bergamo::dem;
+using namespace bergamo::dem::test;
+
+namespace
+{
+
+constexpr double mm = 1e-3, gravity = 9.81;
+
+SimulationParameters parameters(const double friction, const double damping)
+{
+  SimulationParameters p;
+  p.grain() = p.wall() = {1e8, 0.3, 2650.};
+  p.between_grains().friction = p.with_walls().friction = friction;
+  p.set_damping(damping);
+  p.gravity = Vec3(0., 0., -gravity);
+  p.time_step = 2e-6;
+  return p;
+}
+
+/// A surface of the tests in another size, e.g. of millimetres, turned about the origin.
+dem::Surface sized(const test::Surface &surface, const double size, const Mat3 &turn = Mat3::Identity())
+{
+  std::vector<Vec3> nodes;
+  for (const Vec3 &x : surface.node)
+    nodes.push_back(size * (turn * x));
+  return {nodes, surface.topology.triangle};
+}
+
+Simulation with_surface(const SimulationParameters &p, const Particles &grains, const dem::Surface &surface)
+{
+  Simulation s(p, grains, {});
+  s.add_surface(surface);
+  return s;
+}
+
+double energy_error(const Simulation &s)
+{
+  return s.energy().balance();
+}
+
+/// Balance at this step, between its forces and its drift.
+double balance_of(Simulation &s)
+{
+  s.compute_forces();
+  s.kick();
+  return energy_error(s);
+}
+
+/// n triangles or so of the square [-10, 10]^2 mm.
+dem::Surface flat(const int n, const double jitter, const Mat3 &turn = Mat3::Identity())
+{
+  std::mt19937_64 random(11);
+  test::Surface grid = grid_surface(
+      n, [](double, double) { return 0.; }, jitter, random);
+  for (Vec3 &x : grid.node)
+    x = (x - Vec3(0.5 * n, 0.5 * n, 0.)) * (20. / n);
+  return sized(grid, mm, turn);
+}
+
+const Superquadric sphere{Vec3::Constant(mm), 1., 1.}, rounded{Vec3(1.5 * mm, 1.2 * mm, 1. * mm), 0.8, 0.9};
+
+} // namespace
+
+TEST_CASE("a grain on triangles of one plane moves as on the plane")
+{
+  const Threads one_thread(1);
+  for (const Superquadric &shape : {sphere, rounded})
+    for (const auto &[n, jitter] : {std::pair(1, 0.), std::pair(10, 0.2), std::pair(100, 0.24)})
+    {
+      // Sliding, rolling and spinning at once, over edges and vertices; then at rest.
+      Particles grains;
+      grains.add(shape, 2650., Vec3(-1. * mm, -0.5 * mm, 1.05 * mm), Quaternion(Eigen::AngleAxisd(0.1, Vec3::UnitX())));
+      grains.velocity[0] = Vec3(0.08, 0.05, -0.01);
+      SimulationParameters p = parameters(0.3, 0.3);
+      p.contact.overlap_tolerance = 0.; // the same searches in both
+      Simulation on_plane(p, grains, {PlaneWall()}), on_mesh = with_surface(p, grains, flat(n, jitter));
+      double farthest = 0., most = 0.;
+      for (int step = 0; step < 20000; ++step)
+      {
+        on_plane.step();
+        on_mesh.step();
+        const double apart = (on_plane.particles.position[0] - on_mesh.particles.position[0]).norm();
+        farthest = std::max(farthest, apart);
+        most = std::max(most, (on_mesh.particles.position[0] - grains.position[0]).norm());
+      }
+      INFO(n << " squares a side, exponents " << shape.eps1 << ", " << shape.eps2);
+      // A superquadric that goes over an edge makes that step at once, one on the plane is followed and corrected.
+      const double share = shape.is_sphere() ? 1e-9 : 1e-4;
+      CHECK(farthest < share * mm);
+      CHECK(most > 0.5 * mm);
+      const std::vector<Vec3> &forces = on_mesh.surfaces[0].force;
+      const Vec3 force = std::accumulate(forces.begin(), forces.end(), Vec3(Vec3::Zero()));
+      CHECK((on_plane.walls[0].force - force).norm() < 10. * share * on_plane.walls[0].force.norm());
+    }
+}
+
+TEST_CASE("a sphere in a V of triangles presses both sides by m g / (2 sin)")
+{
+  const Threads one_thread(1);
+  const double slope = 0.7;
+  Particles grains;
+  grains.add(sphere, 2650., Vec3(0., 0.3 * mm, mm / std::cos(slope)), Quaternion::Identity());
+  Simulation s = with_surface(parameters(0., 0.5), grains, sized(ridge(-slope), mm));
+  for (int n = 0; n < 40000; ++n)
+    s.step();
+  s.compute_forces();
+  const auto contacts = s.contacts.touching_walls(s.particles);
+  REQUIRE(contacts.size() == 2);
+  for (const TouchingContact &c : contacts)
+    CHECK(c.state.forces.normal == Approx(s.particles.mass[0] * gravity / (2. * std::cos(slope))).epsilon(1e-6));
+}
+
+TEST_CASE("grains on rough triangles keep their energy account and press with their weight")
+{
+  const Threads one_thread(1);
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> unit(0., 1.);
+  test::Surface bowl = grid_surface(
+      12, [&](double x, double y) { return 0.08 * ((x - 6.) * (x - 6.) + (y - 6.) * (y - 6.)) + 0.2 * unit(random); },
+      0.2, random);
+  for (Vec3 &x : bowl.node)
+    x -= Vec3(6., 6., 0.);
+  for (const double damping : {0., 0.5})
+  {
+    Particles grains;
+    for (int k = 0; k < 8; ++k)
+      grains.add(k % 2 ? sphere : rounded, 2650.,
+                 Vec3((k % 2) * 3.2 - 1.6, (k / 2 % 2) * 3.2 - 1.6, 2.6 + 3.2 * (k / 4)) * mm,
+                 draw_orientation(random));
+    SimulationParameters p = parameters(damping == 0. ? 0. : 0.4, damping);
+    p.time_step = 1e-6;
+    Simulation s = with_surface(p, grains, sized(bowl, mm));
+    double weight = 0.;
+    for (const double mass : s.particles.mass)
+      weight += mass * gravity;
+    const double scale = weight * mm;
+    for (int n = 0; n < 100000; ++n)
+      s.step();
+    CHECK(std::abs(balance_of(s)) < 1e-4 * scale); // of the second order in the step, from turning
+    const GrainEnergy e = s.energy();
+    // What searches correct and curvature puts in are columns of their own; they stay small.
+    CHECK(std::abs(e.search_work + e.quadrature_work) < 1e-2 * scale);
+    if (damping == 0.)
+      CHECK(std::abs(e.viscous_loss) < 1e-15 * scale);
+    else
+    {
+      const Vec3 force = std::accumulate(s.surfaces[0].force.begin(), s.surfaces[0].force.end(), Vec3(Vec3::Zero()));
+      CHECK(e.kinetic < 0.05 * scale);
+      CHECK(force[2] == Approx(-weight).epsilon(0.2)); // some still rock
+      // Shape functions keep the moment: about the origin it is that of the contacts.
+      Vec3 moment = Vec3::Zero(), of_contacts = Vec3::Zero();
+      for (std::size_t n = 0; n < s.surfaces[0].node.size(); ++n)
+        moment += s.surfaces[0].node[n].cross(s.surfaces[0].force[n]);
+      for (const TouchingContact &c : s.contacts.touching_walls(s.particles))
+      {
+        const Vec3 f = -c.state.weight * c.state.force();
+        of_contacts += (s.particles.position[c.first] + c.state.point).cross(f);
+      }
+      CHECK((moment - of_contacts).norm() < 1e-3 * force.norm() * mm); // points lie half an overlap above the faces
+    }
+  }
+}
+
+TEST_CASE("friction holds on tilted triangles as on the plane: up to its angle, and without creep")
+{
+  const Threads one_thread(1);
+  const double friction = 0.4;
+  for (const double share : {0.95, 1.05})
+  {
+    const Mat3 tilt = Eigen::AngleAxisd(std::atan(share * friction), Vec3::UnitY()).toRotationMatrix();
+    Particles grains;
+    Superquadric block{Vec3(1.5 * mm, 1.2 * mm, 0.7 * mm), 0.5, 0.5};
+    grains.add(block, 2650., tilt * Vec3(-1. * mm, 0.2 * mm, 0.7 * mm), Quaternion(tilt));
+    const SimulationParameters p = parameters(friction, 0.5);
+    PlaneWall plane;
+    plane.normal = tilt.col(2);
+    Simulation on_plane(p, grains, {plane}), on_mesh = with_surface(p, grains, flat(40, 0.24, tilt));
+    const auto run = [&](const int n_steps)
+    {
+      for (int n = 0; n < n_steps; ++n)
+      {
+        on_plane.step();
+        on_mesh.step();
+      }
+    };
+    run(20000);
+    const Vec3 settled = on_mesh.particles.position[0];
+    run(60000);
+    const double way = (on_mesh.particles.position[0] - settled).norm();
+    CHECK((on_plane.particles.position[0] - on_mesh.particles.position[0]).norm() < 1e-2 * way);
+    if (share < 1.)
+      CHECK(way < 2e-3 * mm); // it rocks on its one contact
+    else
+      CHECK(way > 0.1 * mm);
+  }
+}
+
+TEST_CASE("a surface that moves carries what lies on it as a plane does, and books its work")
+{
+  const Threads one_thread(1);
+  Particles grains;
+  grains.add(rounded, 2650., Vec3(0.3 * mm, 0.2 * mm, 1.05 * mm), Quaternion::Identity());
+  const SimulationParameters p = parameters(0.5, 0.5);
+  Simulation on_plane(p, grains, {PlaneWall()}), on_mesh = with_surface(p, grains, flat(20, 0.24));
+  const Vec3 velocity(0.01, -0.005, 0.002); // up to it and on
+  const int n_steps = 50000, n_ramp = 10000;
+  for (int n = 0; n < n_steps; ++n)
+  {
+    const Vec3 now = velocity * std::min(1., double(n) / n_ramp);
+    std::fill(on_mesh.surfaces[0].velocity.begin(), on_mesh.surfaces[0].velocity.end(), now);
+    on_plane.walls[0].velocity = now;
+    on_mesh.step();
+    on_plane.step();
+  }
+  const double scale = p.grain().density * volume(rounded) * gravity * mm;
+  CHECK((on_mesh.particles.position[0] - on_plane.particles.position[0]).norm() < 1e-4 * mm);
+  CHECK((on_mesh.particles.position[0] - grains.position[0]).norm() > 0.8 * mm);
+  CHECK(on_mesh.surfaces[0].work == Approx(on_plane.walls[0].work).epsilon(1e-3));
+  CHECK(std::abs(balance_of(on_mesh)) < 1e-4 * scale);
+}
+
+TEST_CASE("surfaces have the same bits on any number of threads and across a restart")
+{
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> unit(0., 1.);
+  const test::Surface rough = grid_surface(
+      10, [&](double, double) { return 0.3 * unit(random); }, 0.2, random);
+  Particles grains;
+  for (int k = 0; k < 48; ++k)
+    grains.add(k % 2 ? sphere : rounded, 2650.,
+               Vec3(0.8 + 2.8 * (k % 4), 0.8 + 2.8 * (k / 4 % 4), 1.8 + 3.1 * (k / 16)) * mm, draw_orientation(random));
+  SimulationParameters p = parameters(0.3, 0.3);
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 3})
+  {
+    const Threads these(threads);
+    Simulation s = with_surface(p, grains, sized(rough, mm));
+    for (int n = 0; n < 16000; ++n)
+    {
+      if (threads == 3 && n == 12000)
+      {
+        const TemporaryFolder folder;
+        ArchiveWriter writer(folder / "snapshot.h5", "restart test");
+        write_simulation(writer, s);
+        writer.commit();
+        s = std::move(*read_simulation(ArchiveReader(folder / "snapshot.h5", "restart test"), p));
+      }
+      std::fill(s.surfaces[0].velocity.begin(), s.surfaces[0].velocity.end(), Vec3(0., 0., n > 11000 ? 0.01 : 0.));
+      s.step();
+    }
+    CHECK(s.contacts.n_touching_walls() > 5);
+    hashes.push_back(state_hash(s));
+  }
+  CHECK(hashes[0] == hashes[1]);
+  CHECK(hashes[0] == hashes[2]);
+}
+
+TEST_CASE("surfaces that cannot be are refused at the door")
+{
+  using Catch::Contains;
+  Particles grains;
+  grains.add(sphere, 2650., Vec3(0., 0., 5. * mm), Quaternion::Identity());
+  Simulation s(parameters(0.3, 0.3), grains, {});
+  dem::Surface flat_one = flat(1, 0.);
+  flat_one.node[1] = flat_one.node[0];
+  CHECK_THROWS_WITH(s.add_surface(flat_one), Contains("triangle 0") && Contains("no area"));
+  dem::Surface nan = flat(1, 0.);
+  nan.velocity[2][0] = NAN;
+  CHECK_THROWS_WITH(s.add_surface(nan), Contains("finite"));
+  dem::Surface unknown = flat(1, 0.);
+  unknown.material = 7;
+  CHECK_THROWS_WITH(s.add_surface(unknown), Contains("material of a surface is 7"));
+  CHECK_THROWS_WITH(s.add_surface(dem::Surface()), Contains("number of triangles"));
+}
