@@ -184,7 +184,7 @@ std::vector<std::size_t> search_pack(GroupOfSearches &group, const std::span<con
   s.radii2 = seen_from(s.axis, found.frame, found.radii2);
   TangentFrameOf<Pack> frame;
   frame << s.axis, s.second_axis();
-  const Pack error = Pack(tolerance) * found.overlap;
+  const Pack error = error_of_following(scene.parameters, found.overlap);
   give_budget<Pack>(s, scene.parameters, {RadiiChange<Pack>(body1, found.normal, found.arm1), frame, s.radii1, error},
                     {RadiiChange<Pack>(body2, found.normal, found.arm2), frame, s.radii2, error});
   s.radii1 = s.radii1 - half_overlap;

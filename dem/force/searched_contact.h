@@ -34,23 +34,29 @@ void place_contact(ContactState<Real> &s, const Vector3<Real> &normal, const Vec
   s.forces.tangential = {s.axis.dot(flat) * scale, s.second_axis().dot(flat) * scale};
 }
 
-/// Wear of a contact that is searched every step, and goes there by being followed: 1 where the turn of a body may
-/// change the overlap by as much as it is, because the radii of a flat face carry a contact anywhere.
+/// Error that following may make of an overlap [m]. A contact for which none is allowed is searched every step, but
+/// goes there by being followed: then what counts is whether the radii of a flat face would lead anywhere.
 template <class Real>
-Vector2<Real> wear_of_radii(const CurvatureRadii<Real> &radii, const Real &overlap)
+Real error_of_following(const ContactParameters &parameters, const Real &overlap)
 {
-  return {math::sqrt(math::abs(radii.r11) / overlap), math::sqrt(math::abs(radii.r22) / overlap)};
+  constexpr double anywhere = 1e6; // overlaps
+  return Real(parameters.overlap_tolerance > 0. ? parameters.overlap_tolerance : anywhere) * overlap;
 }
 
-/// @param s with its radii and overlap; @param wear1, wear2 of both bodies, of no meaning where no error is allowed:
-/// then the contact is always due
+/// @param wear1, wear2 of both bodies, see error_of_following()
 template <class Real>
 void give_budget(ContactState<Real> &s, const ContactParameters &parameters, const TurnWear<Real> &wear1,
                  const TurnWear<Real> &wear2)
 {
+  constexpr double leads_anywhere = 1e6; // [1/rad]
   const bool is_followed = parameters.overlap_tolerance > 0.;
-  s.wear1 = is_followed ? wear1.tilt : wear_of_radii(s.radii1, s.overlap);
-  s.wear2 = is_followed ? wear2.tilt : wear_of_radii(s.radii2, s.overlap);
+  const auto of_flat_faces = [&](const Real &wear) -> Real
+  { return math::select(wear > Real(leads_anywhere), wear, Real(0.)); };
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    s.wear1[axis] = is_followed ? wear1.tilt[axis] : of_flat_faces(wear1.tilt[axis]);
+    s.wear2[axis] = is_followed ? wear2.tilt[axis] : of_flat_faces(wear2.tilt[axis]);
+  }
   s.twist_wear = is_followed ? Real(wear1.twist + wear2.twist) : Real(0.);
   s.budget = Real(is_followed ? 1. : -1.);
 }
@@ -76,10 +82,6 @@ void take_search(ContactState<Real> &s, const ContactState<Real> &before, const 
         math::select(before.overlap > Real(0.), Real(old_elastic + (before.forces.normal - before.elastic_force())),
                      before.forces.normal);
     stepped = s;
-    // The old force turns with both bodies about the normal, to second order, as it does where it is followed.
-    const Real spin = motion.turn_about(s.normal), x = s.forces.tangential[0], y = s.forces.tangential[1];
-    const Real along = Real(1.) - Real(0.5) * spin * spin;
-    stepped.forces.tangential = {along * x - spin * y, along * y + spin * x};
     TangentFrameOf<Real> frame;
     frame << s.axis, s.second_axis();
     const ContactMotion<Real, Vector2<Real>> seen{-s.normal.dot(displacement), in_frame(frame, displacement)};

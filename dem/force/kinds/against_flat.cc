@@ -33,7 +33,7 @@ void take_flat_place(ContactSearch &search, const ContactScene &scene, const Fla
   seen << s.axis, s.second_axis();
   give_budget<double>(
       s, scene.parameters,
-      {RadiiChange<double>(pose, normal, g.arm), seen, s.radii1, scene.parameters.overlap_tolerance * overlap}, {});
+      {RadiiChange<double>(pose, normal, g.arm), seen, s.radii1, error_of_following(scene.parameters, overlap)}, {});
   s.radii1 = s.radii1 - 0.5 * overlap;
   s.weight = weight;
   s.reduced_mass = p.mass[search.first]; // what it touches is infinitely heavy

@@ -21,9 +21,6 @@ struct WallMotion
     return (velocity - spin.cross(point)) * Real(time_step);
   }
 
-  /// Mean rotation of both about a unit vector [rad].
-  Real turn_about(const Vector3<Real> &axis) const { return axis.dot(spin) * Real(0.5 * time_step); }
-
   /// As PairMotion::turn(): the plane's radii are infinite, so the normal is that of the plane.
   ContactTurn<Real> turn(const ContactState<Real> &s, const TangentFrameOf<Real> &frame) const
   {
