@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 #include "drivers/common/number_text.h"
+#include "drivers/fit_mohr_coulomb/void_ratio.h"
 #include "fe_dealii/material/hypoplastic.h"
 
 #include <unsupported/Eigen/NonLinearOptimization>
@@ -124,11 +125,6 @@ struct Differences
     return difference.norm();
   }
 };
-
-double void_ratio_of(const double solid_fraction)
-{
-  return 1 / solid_fraction - 1;
-}
 
 /// From the ends of the shears, which all go to the same critical state.
 fe::HypoplasticParameters first_guess(const std::vector<SandTest> &tests, const SandFitParameters &given)

@@ -1,6 +1,7 @@
 #include "drivers/fit_mohr_coulomb/sand_path.h"
 
 #include "dem/core/error.h"
+#include "drivers/fit_mohr_coulomb/void_ratio.h"
 #include "fe_dealii/material/hypoplastic_integration.h"
 
 #include <algorithm>
@@ -13,11 +14,6 @@ namespace
 
 constexpr double longest_step = 2e-3;                    // logarithmic, over which the direction of the strain is held
 constexpr fe::SubstepControl control{.tolerance = 1e-8}; // so that a fit may take differences
-
-double void_ratio_of(const double solid_fraction)
-{
-  return 1 / solid_fraction - 1;
-}
 
 /// A step whose strain is known but for the multiple of a direction, at which a mean of stresses has a value.
 struct Aim
