@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <span>
 #include <unordered_set>
 
@@ -30,9 +31,13 @@ public:
   /// forces. A grain gets its weight once: ConfigError for a second overlap.
   void set_weights(std::span<const std::int64_t> id, std::span<const double> weight);
 
+  /// Leaves the work of a surface out of energy(): it belongs to another mover of the model.
+  void share_surface(std::int32_t surface) { shared_surfaces_.insert(surface); }
+
 private:
   std::unique_ptr<dem::Simulation> grains_;
   std::unordered_set<std::int64_t> shared_; // ids of the grains with weights
+  std::set<std::int32_t> shared_surfaces_;
 };
 
 } // namespace bergamo::coupling

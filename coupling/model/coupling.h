@@ -22,6 +22,9 @@ public:
   /// Adds its forces at the present places to those on the movers. Called once their own forces are known.
   virtual void apply() = 0;
 
+  /// Follows the movers once all of them have drifted, before forces are asked for again. @param time_step drifted [s]
+  virtual void follow(double /*time_step*/) {}
+
   /// What it acts on.
   virtual std::vector<const Mover *> movers() const = 0;
 

@@ -25,6 +25,8 @@ void Model::drift(const double time_step)
 {
   for (const auto &mover : movers_)
     mover->drift(time_step);
+  for (const auto &coupling : couplings_)
+    coupling->follow(time_step);
 }
 
 StableSteps Model::stable_steps() const

@@ -23,8 +23,8 @@ struct SurfaceLoad
 std::vector<SurfaceLoad> surface_loads(const Particles &particles, const Contacts &contacts,
                                        std::span<const Surface> surfaces);
 
-/// Forces on the nodes, by the shape functions of the features: their sums are surface_loads(). @return by surface, in
-/// the order of its nodes [N]; nothing for those that are not wanted. @param is_wanted one a surface
+/// Forces on the nodes, by the shape functions of the features: their sum and moment are surface_loads(), to rounding.
+/// @return by surface, in the order of its nodes [N]; nothing for those not wanted. @param is_wanted one a surface
 std::vector<std::vector<Vec3>> node_forces(const Particles &particles, const Contacts &contacts,
                                            std::span<const Surface> surfaces, const std::vector<bool> &is_wanted);
 

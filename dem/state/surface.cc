@@ -15,6 +15,47 @@ Surface::Surface(std::vector<Vec3> nodes, std::vector<Triangle> triangles)
 {
 }
 
+Vec3 Surface::velocity_at(const FeatureOfSurface &f, const Vec3 &point) const
+{
+  if (is_at_rest())
+    return Vec3::Zero();
+  const NodeShares shares = node_shares(*this, f.feature, f.number, point);
+  return shares.of(drift_velocity) + spin_of(f).cross(point - shares.of(node));
+}
+
+/// Of the gradient of the velocity in the plane: what turns the normal, and the mean of what turns the plane in itself.
+Vec3 Surface::spin_of(const FeatureOfSurface &f) const
+{
+  if (is_at_rest())
+    return Vec3::Zero();
+  const Triangle &t = topology.triangle[face_of(f)];
+  const Vec3 a = node[t[1]] - node[t[0]], b = node[t[2]] - node[t[0]], area = a.cross(b);
+  const Vec3 of_a = b.cross(area) / area.squaredNorm(),
+             of_b = area.cross(a) / area.squaredNorm(); // gradients of shares
+  const Vec3 va = drift_velocity[t[1]] - drift_velocity[t[0]], vb = drift_velocity[t[2]] - drift_velocity[t[0]];
+  const Vec3 normal = area.normalized();
+  const Vec3 of_normal = -(of_a * va.dot(normal) + of_b * vb.dot(normal)); // its rate
+  return normal.cross(of_normal) + 0.5 * normal * normal.dot(of_a.cross(va) + of_b.cross(vb));
+}
+
+Vec3 Surface::direction_of_edge(const std::int32_t e) const
+{
+  return (node[topology.edge[e].to] - node[topology.edge[e].from]).normalized();
+}
+
+std::int32_t Surface::face_of(const FeatureOfSurface &f) const
+{
+  switch (f.feature)
+  {
+  case Feature::face:
+    return f.number;
+  case Feature::edge:
+    return topology.edge[f.number].left;
+  default:
+    return topology.corners_of(f.number)[0].face;
+  }
+}
+
 void Surface::advance(const double time_step)
 {
   drift_velocity = velocity;

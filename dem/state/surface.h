@@ -12,6 +12,19 @@
 namespace bergamo::dem
 {
 
+struct Surface;
+
+/// A feature among those of all surfaces, counted surface by surface: faces, edges, vertices.
+struct FeatureOfSurface
+{
+  std::int32_t surface;
+  Feature feature;
+  std::int32_t number;
+};
+
+/// Which feature a count means. @param count in [0, sum of n_features())
+FeatureOfSurface feature_of(std::span<const Surface> surfaces, std::int32_t count);
+
 /// Surface of triangles that grains touch on the side of its normals. Its nodes move as they are told: who owns it sets
 /// velocities, or moves it to places between steps, and takes the nodes' forces. A surface at rest costs nothing but
 /// its contacts.
@@ -26,6 +39,14 @@ struct Surface
   SurfaceView view() const { return {topology, node}; }
   std::size_t n_features() const { return topology.n_faces() + topology.n_edges() + topology.n_nodes(); }
   bool is_at_rest() const { return drift_velocity.empty(); } ///< over the step before
+
+  /// @name Over the step before, of the material of a feature; zero at rest
+  /// @{
+  Vec3 velocity_at(const FeatureOfSurface &feature, const Vec3 &point) const; ///< at a point on or above it [m]; [m/s]
+  Vec3 spin_of(const FeatureOfSurface &feature) const; ///< of the feature's face, or one of its faces [1/s]
+  /// @}
+  Vec3 direction_of_edge(std::int32_t edge) const;             ///< unit vector
+  std::int32_t face_of(const FeatureOfSurface &feature) const; ///< the feature itself, or a face that has it
 
   /// Moves on with the velocities. @param time_step [s]
   void advance(double time_step);
@@ -52,6 +73,9 @@ struct Surface
   double motion = 0.;        ///< path that no node has exceeded since the start [m]
   double work = 0.;          ///< done by the surface on the grains since the start [J]
   std::int32_t material = 1; ///< of the simulation's table
+  /// Its nodes keep their distances: they rest, or move as those of one rigid body. Contacts on faces of others are
+  /// searched every step while they move.
+  bool is_rigid = false;
 
   template <class Self, class Visit>
   static void visit_state(Self &self, Visit &visit)
@@ -65,8 +89,13 @@ struct Surface
     visit("motion", self.motion);
     visit("work", self.work);
     visit("material", self.material);
+    std::int32_t is_rigid = self.is_rigid;
+    visit("is_rigid", is_rigid);
     if constexpr (Visit::is_reading)
+    {
       self.restore(nodes_of_triangles);
+      self.is_rigid = is_rigid != 0;
+    }
   }
 
 private:
@@ -76,16 +105,6 @@ private:
   std::vector<Vec3> old_force;      // of the step before, where the surface moves
   std::vector<std::int32_t> loaded; // nodes with a force, some of them twice
 };
-
-/// A feature among those of all surfaces, counted surface by surface: faces, edges, vertices.
-struct FeatureOfSurface
-{
-  std::int32_t surface;
-  Feature feature;
-  std::int32_t number;
-};
-
-FeatureOfSurface feature_of(std::span<const Surface> surfaces, std::int32_t count);
 
 /// Shares of the nodes of a feature at a point on it; they add up to 1.
 struct NodeShares

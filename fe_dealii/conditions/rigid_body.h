@@ -50,6 +50,7 @@ public:
   Vector vertex_velocity(const std::size_t k) const { return motion_.velocity_of(arm_[k]); } ///< [m/s]
   const std::vector<std::array<unsigned int, 3>> &triangles() const { return triangles_; }
 
+  const RigidInertia &inertia() const { return motion_.inertia(); }        ///< at the start
   const Vector &centre() const { return motion_.motion().centre; }         ///< [m]
   Vector &velocity() { return motion_.motion().velocity; }                 ///< of the centre, half step [m/s]
   const Vector &velocity() const { return motion_.motion().velocity; }     ///< of the centre, half step [m/s]

@@ -13,32 +13,73 @@ namespace bergamo::dem
 namespace
 {
 
-/// As WallMotion; what the deepest point has come nearer to the edges of its face since the last search wears, too.
+/// As WallMotion, of a part against features that turn, and that are flat in all directions (faces), in one (edges) or
+/// in none (vertices), elsewhere sharp. What the deepest point has come nearer to the borders of its face since the
+/// last search wears, too.
 template <class Real>
-struct FaceMotion : WallMotion<Real>
+struct FeatureMotion : WallMotion<Real>
 {
+  Vector3<Real> feature_spin; ///< [1/s]
+  Vector3<Real> edge;         ///< unit vector along an edge
+  Real is_face, is_edge;      ///< 1 or 0
+
+  /// As PairMotion::turn(). With R2 of the feature infinite where it is flat and 0 where it is sharp, (R1 + R2) dn =
+  /// u + R1 (a1 x n) + R2 (a2 x n) has the normal turn with the feature in flat directions, and in sharp ones as R1
+  /// asks.
   ContactTurn<Real> turn(const ContactState<Real> &s, const TangentFrameOf<Real> &frame) const
   {
-    ContactTurn<Real> turn = WallMotion<Real>::turn(s, frame);
-    const Vector2<Real> slip = in_frame(frame, Vector3<Real>(turn.shift - this->velocity * Real(this->time_step)));
-    turn.wear += math::sqrt(slip.squaredNorm()) * s.radii2.r11; // the inverse of what it may go
+    const Real dt(this->time_step), half(0.5);
+    const Vector3<Real> turn1 = this->spin * dt, turn2 = feature_spin * dt, of_arm = turn1.cross(s.point);
+    const Vector3<Real> at_old_point = this->velocity * dt - of_arm;
+    const Vector2<Real> about1 = in_frame(frame, turn1), about2 = in_frame(frame, turn2);
+    const Real about_normal1 = s.normal.dot(turn1), about_normal2 = s.normal.dot(turn2);
+    const Vector2<Real> roll1(about1[1], -about1[0]), roll2(about2[1], -about2[0]); // turn x normal
+    const Vector2<Real> along = in_frame(frame, edge), across(-along[1], along[0]);
+    const Vector2<Real> flat_tilt = roll2 * is_face + along * (along.dot(roll2) * is_edge);
+    const Vector2<Real> asked = in_frame(frame, at_old_point) + s.radii1 * (roll1 - flat_tilt);
+    const Vector2<Real> of_edge =
+        across * (across.dot(asked) / math::select(is_edge > Real(0.), across.dot(s.radii1 * across), Real(1.)));
+
+    ContactTurn<Real> turn;
+    turn.tilt = flat_tilt + of_edge * is_edge + s.radii1.solve(asked) * (Real(1.) - is_face - is_edge);
+    turn.spin = half * (about_normal1 + about_normal2);
+    const Vector2<Real> of_body1 = turn.tilt - roll1;
+    turn.shift = of_arm + from_frame<Real>(frame, s.radii1 * of_body1) + s.normal * (half * s.normal.dot(at_old_point));
+    const Vector2<Real> slip = in_frame(frame, Vector3<Real>(turn.shift - this->velocity * dt));
+    turn.wear = math::sqrt(squared_wear(s.wear1, of_body1)) +
+                s.twist_wear * math::abs(half * (about_normal2 - about_normal1)) +
+                math::sqrt(slip.squaredNorm()) * s.radii2.r11; // the inverse of what it may go
+    const Vector3<Real> displacement = at_old_point + (turn2 - turn1).cross(turn.shift) * half;
+    Vector3<Real> seen;
+    seen << in_frame(frame, displacement), s.normal.dot(displacement);
+    turn.motion = seen_halfway<Real>(turn.tilt, turn.spin, seen);
     return turn;
   }
 };
 
-/// Velocity of a surface where a contact is [m/s].
-Vec3 velocity_at(const Surface &surface, const FeatureOfSurface &f, const Vec3 &point)
-{
-  return surface.is_at_rest() ? Vec3(Vec3::Zero())
-                              : node_shares(surface, f.feature, f.number, point).of(surface.drift_velocity);
-}
-
-FaceMotion<double> motion_of(const ContactSearch &search, const ContactScene &scene, const Vec3 &point)
+/// @param grain a particle; @param feature see feature_of(); @param point of the contact minus the grain's centre [m]
+FeatureMotion<double> motion_of(const std::int32_t grain, const std::int32_t feature, const ContactScene &scene,
+                                const Vec3 &point)
 {
   const Particles &p = scene.particles;
-  const FeatureOfSurface f = feature_of(scene.surfaces, search.second);
-  const Vec3 velocity = velocity_at(scene.surfaces[f.surface], f, p.position[search.first] + point);
-  return {velocity - p.drift_velocity[search.first], p.angular_velocity[search.first], scene.time_step};
+  const FeatureOfSurface f = feature_of(scene.surfaces, feature);
+  const Surface &surface = scene.surfaces[f.surface];
+  FeatureMotion<double> motion;
+  motion.velocity = surface.velocity_at(f, p.position[grain] + point) - p.drift_velocity[grain];
+  motion.spin = p.angular_velocity[grain];
+  motion.time_step = scene.time_step;
+  motion.feature_spin = surface.spin_of(f);
+  motion.edge = f.feature == Feature::edge ? surface.direction_of_edge(f.number) : Vec3(Vec3::Zero());
+  motion.is_face = f.feature == Feature::face;
+  motion.is_edge = f.feature == Feature::edge;
+  return motion;
+}
+
+/// Of a free lane.
+FeatureMotion<double> at_rest(const double time_step)
+{
+  const Vec3 zero = Vec3::Zero();
+  return {{zero, zero, time_step}, zero, zero, 1., 0.};
 }
 
 /// The touching contact of the same part that a new one takes over from: the nearest in direction, about as deep.
@@ -72,7 +113,8 @@ bool is_guarded(const ContactSearch &search, const SearchContext<GrainSurface> &
 {
   constexpr double safety = 1.2;
   const FeatureOfSurface f = feature_of(context.scene.surfaces, search.second);
-  if (!context.scene.surfaces[f.surface].is_at_rest() || look.index_of(f.feature, f.number) != 0)
+  const Surface &surface = context.scene.surfaces[f.surface];
+  if (!(surface.is_at_rest() || surface.is_rigid) || look.index_of(f.feature, f.number) != 0)
     return false;
   const double margin = look.margin();
   const Vec3 normal = look.normal_beside(f.feature, f.number);
@@ -121,28 +163,31 @@ public:
 math::Mask<Pack> GrainSurface::follow_block(Store &store, LoadSums &loads, const std::size_t block,
                                             const ContactScene &scene, Losses<Pack> &losses)
 {
-  const Particles &p = scene.particles;
-  const auto grain = [&](const int lane) { return store.first[block * pack_width + lane]; };
   ContactState<Pack> &state = store.blocks[block];
-  std::array<Vec3, pack_width> surface_velocity;
-  surface_velocity.fill(Vec3::Zero());
+  std::array<FeatureMotion<double>, pack_width> of_lane;
   for (int lane = 0; lane < pack_width; ++lane)
   {
-    const std::size_t slot = block * pack_width + lane;
-    if (store.pair[slot] == Store::free_slot)
-      continue;
-    const FeatureOfSurface f = feature_of(scene.surfaces, store.second[slot]);
-    if (scene.surfaces[f.surface].is_at_rest())
-      continue;
-    const Vec3 point = p.position[grain(lane)] + math::lane<Pack>(state.point, lane);
-    surface_velocity[lane] = velocity_at(scene.surfaces[f.surface], f, point);
-    state.budget[lane] = -1.; // its face turns
+    const auto slot = static_cast<std::int32_t>(block * pack_width + lane);
+    const bool is_free = store.pair[slot] == Store::free_slot;
+    of_lane[lane] = is_free
+                        ? at_rest(scene.time_step)
+                        : motion_of(store.first[slot], store.second[slot], scene, math::lane<Pack>(state.point, lane));
   }
-  const FaceMotion<Pack> motion{
-      {math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return surface_velocity[lane]; }) -
-           math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.drift_velocity[grain(lane)]; }),
-       math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return p.angular_velocity[grain(lane)]; }),
-       scene.time_step}};
+  const auto gather = [&](const auto &member)
+  {
+    return math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return of_lane[lane].*member; });
+  };
+  const auto gather_numbers = [&](const auto &member)
+  { return math::generate<Pack>([&](const int lane) { return of_lane[lane].*member; }); };
+  using Motion = FeatureMotion<double>;
+  FeatureMotion<Pack> motion;
+  motion.velocity = gather(&Motion::velocity);
+  motion.spin = gather(&Motion::spin);
+  motion.time_step = scene.time_step;
+  motion.feature_spin = gather(&Motion::feature_spin);
+  motion.edge = gather(&Motion::edge);
+  motion.is_face = gather_numbers(&Motion::is_face);
+  motion.is_edge = gather_numbers(&Motion::is_edge);
   const Followed<Pack> followed = follow(state, motion, scene.law, losses);
   loads.add(block, followed.force, state.point.cross(followed.force), Vector3<Pack>(0., 0., 0.));
   return followed.is_due;
@@ -176,7 +221,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
     State state = search.slot >= 0 ? context.store.get(search.slot) : State::begin();
     const double weight = place->index * scene.particles.weight[search.first];
     const Vec3 point = place->arm + 0.5 * place->overlap * place->normal;
-    const FaceMotion<double> motion = motion_of(search, scene, point);
+    const FeatureMotion<double> motion = motion_of(search.first, search.second, scene, point);
     if (search.slot < 0)
       if (const auto other = taken_over(search, context, *place, look))
       {
@@ -188,10 +233,10 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
         losses += end_of(ended, motion) * -1.;
       }
     take_flat_place(search, scene, {-place->normal, place->overlap, weight}, motion, state, losses);
-    // On a face at rest the deepest point may go half the way to the nearest edge before it is looked at again.
+    // On a face the deepest point may go half the way to the nearest edge before it is looked at again.
     constexpr double share = 0.5;
     constexpr double not_followed = 1e100; // [1/m]
-    const bool is_followed = f.feature == Feature::face && surface.is_at_rest();
+    const bool is_followed = f.feature == Feature::face && (surface.is_at_rest() || surface.is_rigid);
     const double way = is_followed ? share * look.distance_to_edges(f.number) : 0.;
     state.radii2.r11 = way > 0. ? std::min(1. / way, not_followed) : not_followed;
     if (!(way > 0.))
@@ -205,7 +250,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
 
 ContactLosses GrainSurface::end(const ContactSearch &search, const State &state, const ContactScene &scene)
 {
-  return end_of(state, motion_of(search, scene, state.point));
+  return end_of(state, motion_of(search.first, search.second, scene, state.point));
 }
 
 void GrainSurface::refresh(Store &store, const Particles &)
