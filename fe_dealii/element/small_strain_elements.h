@@ -16,7 +16,7 @@ public:
   ElementState state_of(std::size_t element, const double *displacement) const final;
   double elastic_energy() const override;
   double dissipated_energy() const final;
-  double stiffness_loss() const final;
+  double stiffness_loss() const override;
   double stiffness_factor(std::size_t element) const final;
   std::vector<std::pair<std::string, std::span<double>>> state() override;
   double volume(std::size_t element) const final;
@@ -41,6 +41,10 @@ protected:
   virtual const Points &pack_share_volume(std::size_t element, int pack) const = 0; ///< times the continuum's share
 
   PointHistory &history(const std::size_t element, const int pack) { return history_[n_packs_ * element + pack]; }
+  const PointHistory &history(const std::size_t element, const int pack) const
+  {
+    return history_[n_packs_ * element + pack];
+  }
   Sector *sectors(const std::size_t element, const int pack)
   {
     return &sector_[points_per_pack * (n_packs_ * element + pack)];

@@ -3,6 +3,7 @@
 #include "dem/core/error.h"
 #include "fe_dealii/element/cell_nodes.h"
 #include "fe_dealii/element/finite_strain_solid.h"
+#include "fe_dealii/element/small_strain_enhanced.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/element/small_strain_quadratic.h"
 
@@ -115,6 +116,39 @@ std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3>
                                                      std::move(start));
 }
 
+enhanced::Geometry enhanced_geometry(const dealii::FEValues<3> &values)
+{
+  enhanced::Geometry geometry;
+  std::array<std::array<double, 3>, enhanced::n_nodes> corner;
+  for (int node = 0; node < enhanced::n_nodes; ++node)
+    for (int i = 0; i < 3; ++i)
+    {
+      corner[node][i] = values.get_cell()->vertex(node)[i];
+      for (int point = 0; point < points_per_pack; ++point)
+        geometry.gradient[i][node][point] = values.shape_grad(node, point)[i];
+    }
+  for (int point = 0; point < points_per_pack; ++point)
+    geometry.volume[point] = values.JxW(point);
+  enhanced::add_modes(corner, geometry);
+  return geometry;
+}
+
+template <class Law>
+std::unique_ptr<ElementGroup> small_strain_enhanced(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+                                                    const InitialStress &initial_stress)
+{
+  std::vector<PointHistory> start;
+  std::vector<enhanced::Geometry> geometries;
+  for_each_cell(dof_handler, 1,
+                [&](const dealii::FEValues<3> &values)
+                {
+                  geometries.push_back(enhanced_geometry(values));
+                  add_start(values, law, initial_stress, start);
+                });
+  return std::make_unique<SmallStrainEnhanced<Law>>(law, cell_nodes(dof_handler), std::move(geometries),
+                                                    std::move(start));
+}
+
 /// Geometries and lumped masses of elements that are integrated in full.
 template <int n_nodes>
 struct Solids
@@ -193,14 +227,17 @@ struct Maker
 {
   const dealii::DoFHandler<3> &dof_handler;
   const InitialStress &initial_stress;
+  Strains strains;
 
   unsigned int degree() const { return dof_handler.get_fe().degree; }
 
   template <class Law>
   std::unique_ptr<ElementGroup> of_small_strain(const Law &law) const
   {
-    return degree() == 1 ? small_strain_trilinear(dof_handler, law, initial_stress)
-                         : small_strain_quadratic(dof_handler, law, initial_stress);
+    if (degree() == 2)
+      return small_strain_quadratic(dof_handler, law, initial_stress);
+    return strains == Strains::enhanced ? small_strain_enhanced(dof_handler, law, initial_stress)
+                                        : small_strain_trilinear(dof_handler, law, initial_stress);
   }
 
   template <class Law>
@@ -209,6 +246,10 @@ struct Maker
     if (initial_stress)
       throw ConfigError("continuum: initial_stress is given for a law of large strain, which has no stress at rest; "
                         "leave it out");
+    if (strains == Strains::enhanced)
+      throw ConfigError(
+          "continuum: enhanced strains are offered for laws of small strain; choose degree 2 for a body of "
+          "large strain that bends");
     if (degree() == 1)
       return finite_strain<Law, 8>(dof_handler, law);
     return finite_strain<Law, 27>(dof_handler, law);
@@ -224,9 +265,9 @@ struct Maker
 } // namespace
 
 std::unique_ptr<ElementGroup> make_solid_elements(const dealii::DoFHandler<3, 3> &dof_handler, const Material &material,
-                                                  const InitialStress &initial_stress)
+                                                  const InitialStress &initial_stress, const Strains strains)
 {
-  return std::visit(Maker{dof_handler, initial_stress}, material);
+  return std::visit(Maker{dof_handler, initial_stress, strains}, material);
 }
 
 } // namespace bergamo::fe
