@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 #include "fe_dealii/element/cell_nodes.h"
+#include "fe_dealii/element/finite_strain_enhanced.h"
 #include "fe_dealii/element/finite_strain_solid.h"
 #include "fe_dealii/element/small_strain_enhanced.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
@@ -223,6 +224,31 @@ std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_han
                                                            std::move(solids.mass_shares));
 }
 
+template <class Law>
+std::unique_ptr<ElementGroup> finite_strain_enhanced(const dealii::DoFHandler<3> &dof_handler, const Law &law)
+{
+  std::vector<stabilized::Geometry> geometries;
+  std::vector<double> node_volume;
+  for_each_cell(dof_handler, 1,
+                [&](const dealii::FEValues<3> &values)
+                {
+                  std::array<std::array<double, 3>, stabilized::n_nodes> corner;
+                  for (int node = 0; node < stabilized::n_nodes; ++node)
+                  {
+                    double volume = 0;
+                    for (int i = 0; i < 3; ++i)
+                      corner[node][i] = values.get_cell()->vertex(node)[i];
+                    for (const unsigned int point : values.quadrature_point_indices())
+                      volume += values.shape_value(node, point) * values.JxW(point);
+                    node_volume.push_back(volume);
+                  }
+                  geometries.push_back(stabilized::make_geometry(corner, enhanced_geometry(values), law.bulk_modulus(),
+                                                                 law.shear_modulus()));
+                });
+  return std::make_unique<FiniteStrainEnhanced<Law>>(law, cell_nodes(dof_handler), std::move(geometries),
+                                                     std::move(node_volume));
+}
+
 struct Maker
 {
   const dealii::DoFHandler<3> &dof_handler;
@@ -247,9 +273,7 @@ struct Maker
       throw ConfigError("continuum: initial_stress is given for a law of large strain, which has no stress at rest; "
                         "leave it out");
     if (strains == Strains::enhanced)
-      throw ConfigError(
-          "continuum: enhanced strains are offered for laws of small strain; choose degree 2 for a body of "
-          "large strain that bends");
+      return finite_strain_enhanced(dof_handler, law);
     if (degree() == 1)
       return finite_strain<Law, 8>(dof_handler, law);
     return finite_strain<Law, 27>(dof_handler, law);
