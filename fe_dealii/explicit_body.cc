@@ -20,6 +20,10 @@ void ExplicitBodyParameters::validate() const
 {
   if (degree != 1 && degree != 2)
     reject("continuum: degree = ", degree, " of the elements is not allowed; choose 1 (8 nodes) or 2 (27 nodes)");
+  if (degree != 1 && hourglass == Hourglass::bending)
+    reject("continuum: degree = ", degree,
+           " of the elements is not allowed with hourglass modes that bend, which only "
+           "those of 8 nodes have; choose degree 1, or leave the modes: 27 nodes bend anyway");
   MassForces{gravity, damping}.validate("continuum");
   if (!(wanted_time_step >= 0) || !std::isfinite(wanted_time_step))
     reject("continuum: wanted_time_step = ", wanted_time_step,
@@ -53,8 +57,8 @@ ExplicitBody::ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const Explic
 
 ExplicitBody::ExplicitBody(std::unique_ptr<Mesh> mesh, const ExplicitBodyParameters &p)
     : MovingBody("continuum", node_positions(mesh->dof_handler),
-                 make_solid_elements(mesh->dof_handler, p.material, p.initial_stress), {p.gravity, p.damping},
-                 p.wanted_time_step),
+                 make_solid_elements(mesh->dof_handler, p.material, p.initial_stress, p.hourglass),
+                 {p.gravity, p.damping}, p.wanted_time_step),
       mesh_(std::move(mesh)), material_(p.material)
 {
 }

@@ -42,6 +42,7 @@ fe::ExplicitBody make_ground(const FootingParameters &p)
   fe::ExplicitBodyParameters body;
   body.material = fe::MohrCoulomb(p.continuum);
   body.degree = p.degree;
+  body.hourglass = p.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
   body.gravity = {0, 0, -p.gravity};
   body.damping = p.damping;
   if (p.gravity > 0 || p.surcharge > 0)

@@ -2,7 +2,9 @@
 
 #include "dem/core/error.h"
 #include "fe_dealii/element/cell_nodes.h"
+#include "fe_dealii/element/finite_strain_bending.h"
 #include "fe_dealii/element/finite_strain_solid.h"
+#include "fe_dealii/element/small_strain_bending.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/element/small_strain_quadratic.h"
 
@@ -144,6 +146,30 @@ std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3>
                                                      std::move(start));
 }
 
+bending::Corners corners_of(const dealii::FEValues<3> &values)
+{
+  bending::Corners corners;
+  for (int node = 0; node < bending::n_nodes; ++node)
+    for (int i = 0; i < 3; ++i)
+      corners[node][i] = values.get_cell()->vertex(node)[i];
+  return corners;
+}
+
+template <class Law>
+std::unique_ptr<ElementGroup> small_strain_bending(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+                                                   const InitialStress &initial_stress)
+{
+  std::vector<typename KeptAtPoints<Law>::History> start;
+  std::vector<bending::Corners> corners;
+  for_each_cell(dof_handler, 1,
+                [&](const dealii::FEValues<3> &values)
+                {
+                  corners.push_back(corners_of(values));
+                  add_start(values, law, initial_stress, start);
+                });
+  return std::make_unique<SmallStrainBending<Law>>(law, cell_nodes(dof_handler), std::move(corners), start);
+}
+
 /// Geometries and lumped masses of elements that are integrated in full.
 template <int n_nodes>
 struct Solids
@@ -218,18 +244,29 @@ std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_han
                                                            std::move(solids.mass_shares));
 }
 
+template <class Law>
+std::unique_ptr<ElementGroup> finite_strain_bending(const dealii::DoFHandler<3> &dof_handler, const Law &law)
+{
+  std::vector<bending::Corners> corners;
+  for_each_cell(dof_handler, 1, [&](const dealii::FEValues<3> &values) { corners.push_back(corners_of(values)); });
+  return std::make_unique<FiniteStrainBending<Law>>(law, cell_nodes(dof_handler), std::move(corners));
+}
+
 struct Maker
 {
   const dealii::DoFHandler<3> &dof_handler;
   const InitialStress &initial_stress;
+  Hourglass hourglass;
 
   unsigned int degree() const { return dof_handler.get_fe().degree; }
 
   template <class Law>
   std::unique_ptr<ElementGroup> of_small_strain(const Law &law) const
   {
-    return degree() == 1 ? small_strain_trilinear(dof_handler, law, initial_stress)
-                         : small_strain_quadratic(dof_handler, law, initial_stress);
+    if (degree() == 2)
+      return small_strain_quadratic(dof_handler, law, initial_stress);
+    return hourglass == Hourglass::bending ? small_strain_bending(dof_handler, law, initial_stress)
+                                           : small_strain_trilinear(dof_handler, law, initial_stress);
   }
 
   template <class Law>
@@ -238,9 +275,10 @@ struct Maker
     if (initial_stress)
       throw ConfigError("continuum: initial_stress is given for a law of large strain, which has no stress at rest; "
                         "leave it out");
-    if (degree() == 1)
-      return finite_strain<Law, 8>(dof_handler, law);
-    return finite_strain<Law, 27>(dof_handler, law);
+    if (degree() == 2)
+      return finite_strain<Law, 27>(dof_handler, law);
+    return hourglass == Hourglass::bending ? finite_strain_bending(dof_handler, law)
+                                           : finite_strain<Law, 8>(dof_handler, law);
   }
 
   std::unique_ptr<ElementGroup> operator()(const LinearElastic &law) const { return of_small_strain(law); }
@@ -254,9 +292,9 @@ struct Maker
 } // namespace
 
 std::unique_ptr<ElementGroup> make_solid_elements(const dealii::DoFHandler<3, 3> &dof_handler, const Material &material,
-                                                  const InitialStress &initial_stress)
+                                                  const InitialStress &initial_stress, const Hourglass hourglass)
 {
-  return std::visit(Maker{dof_handler, initial_stress}, material);
+  return std::visit(Maker{dof_handler, initial_stress, hourglass}, material);
 }
 
 } // namespace bergamo::fe

@@ -23,14 +23,6 @@ namespace
 
 constexpr std::size_t block_elements = 128; // whose matrices are held at the same time
 
-bool flow_is_associated(const Material &material)
-{
-  if (std::holds_alternative<HypoplasticSand>(material))
-    return false;
-  const MohrCoulomb *const sand = std::get_if<MohrCoulomb>(&material);
-  return !sand || sand->parameters().friction_angle == sand->parameters().dilation_angle;
-}
-
 } // namespace
 
 struct TangentSystem::Trilinos
@@ -135,7 +127,7 @@ void TangentSystem::assemble_tangent(const double *displacement, const double *b
   trilinos->assemble(
       body, [&](const std::size_t e, double *matrix) { body.elements().tangent(e, displacement, before, matrix); },
       moved, pull);
-  trilinos->is_symmetric = flow_is_associated(body.material());
+  trilinos->is_symmetric = body.elements().has_symmetric_tangent();
 }
 
 void TangentSystem::Trilinos::precondition(const ExplicitBody &body)

@@ -101,7 +101,11 @@ TEST_CASE("Mohr-Coulomb: the tangent is symmetric if the flow is associated", "[
 TEST_CASE("the tangent of an element is the derivative of its forces", "[fe]")
 {
   ExplicitBodyParameters parameters;
-  parameters.degree = GENERATE(1u, 2u);
+  const bool bends = GENERATE(false, true);
+  if (bends)
+    parameters.hourglass = Hourglass::bending;
+  else
+    parameters.degree = GENERATE(1u, 2u);
   const int kind = GENERATE(0, 1, 2);
   if (kind == 0)
     parameters.material = LinearElastic({.young_modulus = 60e6, .poisson_ratio = 0.3});
@@ -111,7 +115,7 @@ TEST_CASE("the tangent of an element is the derivative of its forces", "[fe]")
     parameters.material = NeoHooke({.young_modulus = 60e6, .poisson_ratio = 0.3});
   if (kind == 1)
     parameters.initial_stress = uniform_pressure(2e4);
-  CAPTURE(parameters.degree, kind);
+  CAPTURE(parameters.degree, bends, kind);
   dealii::Triangulation<3> mesh;
   make_box({{0, 0, 0}, {1, 1, 1}, {2, 1, 1}}, mesh);
   dealii::GridTools::distort_random(0.1, mesh, false, 5);
