@@ -87,6 +87,42 @@ std::vector<Side> neighbours(const MovingBody &body)
   return result;
 }
 
+/// Elements on top of each other across an axis of one of them.
+struct Stack
+{
+  int n_layers = 1;
+  double thickness = 0; // of the layers together [m]
+  Side ends[2];         // their outer faces
+};
+
+struct Axis
+{
+  std::size_t element;
+  int axis;
+};
+
+/// To the surfaces on both sides, or until it is thick enough [m].
+Stack stack_of(const MovingBody &body, const std::vector<Side> &other_side, const Axis &start,
+               const double thick_enough)
+{
+  Stack stack;
+  stack.thickness = length(across(body, start.element, start.axis));
+  for (int side = 0; side < 2; ++side)
+  {
+    Side &end = stack.ends[side] = {start.element, 2 * start.axis + side};
+    while (stack.n_layers == 1 || stack.thickness < thick_enough)
+    {
+      const Side next = other_side[n_faces * end.element + end.face];
+      if (next.element == nobody)
+        break;
+      end = {next.element, next.face ^ 1};
+      stack.thickness += length(across(body, next.element, next.face / 2));
+      ++stack.n_layers;
+    }
+  }
+  return stack;
+}
+
 /// Whether all nodes of a face have a prescribed motion in each direction that a layer has across.
 bool is_held(const MovingBody &body, const Side &side, const Vector &across)
 {
@@ -123,37 +159,21 @@ ThinLayers thin_layers(const MovingBody &body)
   {
     if (body.elements().is_rigid(e))
       continue;
-    ThinLayers here;
+    bool is_thin = false;
     for (int axis = 0; axis < 3; ++axis)
     {
-      // To both surfaces, as far as most_thin_layers reach.
-      int n_layers = 1;
-      double thickness = length(across(body, e, axis));
-      Side ends[2];
-      for (int side = 0; side < 2; ++side)
-      {
-        ends[side] = {e, 2 * axis + side};
-        while (n_layers <= most_thin_layers)
-        {
-          const Side next = other_side[n_faces * ends[side].element + ends[side].face];
-          if (next.element == nobody)
-            break;
-          ends[side] = {next.element, next.face ^ 1};
-          thickness += length(across(body, next.element, next.face / 2));
-          ++n_layers;
-        }
-      }
       const Vector direction = across(body, e, axis);
-      if (n_layers > most_thin_layers || size <= least_slenderness * thickness || is_held(body, ends[0], direction) ||
-          is_held(body, ends[1], direction))
-        continue;
       const double along = std::max(length(across(body, e, (axis + 1) % 3)), length(across(body, e, (axis + 2) % 3)));
-      if (const double aspect = along / length(direction); aspect > here.aspect)
-        here = {1, e, n_layers, thickness, aspect};
+      const double thick_enough = along / longest_in_thickness;
+      const Stack stack = stack_of(body, other_side, {e, axis}, thick_enough);
+      if ((stack.n_layers > 1 && stack.thickness >= thick_enough) || size <= least_slenderness * stack.thickness ||
+          is_held(body, stack.ends[0], direction) || is_held(body, stack.ends[1], direction))
+        continue;
+      is_thin = true;
+      if (along * result.thickness > result.length * stack.thickness || result.n_layers == 0)
+        result = {result.n_elements, e, stack.n_layers, stack.thickness, along};
     }
-    result.n_elements += here.n_elements;
-    if (here.n_elements > 0 && here.aspect > result.aspect)
-      result = {result.n_elements, here.element, here.n_layers, here.thickness, here.aspect};
+    result.n_elements += is_thin;
   }
   return result;
 }

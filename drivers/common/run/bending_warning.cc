@@ -14,10 +14,10 @@ void warn_of_thin_layers(const fe::MovingBody &body, const std::string &remedy, 
     return;
   std::ostringstream message;
   message << body.describe(thin.element) << " only " << thin.n_layers << (thin.n_layers == 1 ? " element" : " elements")
-          << " over a thickness of " << thin.thickness << " m that is free to bend, and is " << thin.aspect
-          << " times as long as thick; so are " << thin.n_elements
-          << " elements, which are too stiff or too soft there, by any factor: " << remedy
-          << ", or take four elements over the thickness that are no longer than thick";
+          << " over a thickness of " << thin.thickness << " m that is free to bend, and is " << thin.length
+          << " m long; bent, it and others, " << thin.n_elements
+          << " in all, are too stiff or too soft by any factor: " << remedy
+          << ", or take two or more elements over the thickness that are no longer than half of it";
   progress.warn(message.str());
 }
 
