@@ -7,8 +7,8 @@ namespace bergamo::fe
 
 /// Energies of a body [J] at the whole step of its last kick, the continuum's share included. Works and losses count
 /// from the first kick on. The leapfrog keeps
-///   kinetic + elastic + plastic + viscous + stiffness loss − (boundary + gravity + external work) − step change
-///     = initial
+///   kinetic + elastic + plastic + viscous + radiated + stiffness loss − (boundary + gravity + external work)
+///     − step change = initial
 /// to rounding: kinetic is ½ v⁻·m v⁺ with the half-step velocities around the kick, v⁺ for a step as long as the one
 /// before, and every work and loss is ½(F_{n−1} + F_n)·(u_n − u_{n−1}).
 struct BodyEnergy
@@ -19,10 +19,11 @@ struct BodyEnergy
   /// lowers.
   double plastic_dissipation = 0;
   double viscous_dissipation = 0; ///< by mass-proportional damping
+  double radiated = 0;            ///< what the dashpots of quiet boundaries have taken
   /// Elastic work less what it has stored, where the stiffness depends on the pressure: such a law has no potential.
   /// Small beside the works in a sound run.
   double stiffness_loss = 0;
-  double boundary_work = 0; ///< of the reactions at prescribed velocities
+  double boundary_work = 0; ///< of the reactions at prescribed velocities and of what quiet boundaries hold
   double gravity_work = 0;
   double external_work = 0; ///< of external_force()
   /// Σ ⅛ (Δt_before² − Δt_after²) a·m a over the changes of the time step: the kinetic energy above lies ⅛ Δt² a·m a
@@ -33,7 +34,7 @@ struct BodyEnergy
   /// What the balance fails to close by; zero to rounding in a sound run.
   double residual() const
   {
-    return kinetic + elastic + plastic_dissipation + viscous_dissipation + stiffness_loss - boundary_work -
+    return kinetic + elastic + plastic_dissipation + viscous_dissipation + radiated + stiffness_loss - boundary_work -
            gravity_work - external_work - step_change - initial;
   }
 };

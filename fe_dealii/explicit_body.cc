@@ -3,6 +3,7 @@
 #include "dem/core/error.h"
 #include "fe_dealii/boundary/surface.h"
 #include "fe_dealii/element/cell_nodes.h"
+#include "fe_dealii/element/layered_elements.h"
 #include "fe_dealii/element/solid_elements.h"
 
 #include <deal.II/dofs/dof_handler.h>
@@ -30,6 +31,59 @@ void ExplicitBodyParameters::validate() const
            " s is not allowed; give a positive time, or zero for no mass scaling");
 }
 
+namespace
+{
+
+/// The material of each id that the mesh has.
+std::map<unsigned int, Material> materials_of(const dealii::DoFHandler<3> &dof_handler,
+                                              const ExplicitBodyParameters &parameters)
+{
+  std::map<unsigned int, Material> materials;
+  for (const auto &cell : dof_handler.active_cell_iterators())
+  {
+    const unsigned int id = cell->material_id();
+    if (parameters.layers.empty())
+      materials.try_emplace(id, parameters.material);
+    else if (const auto layer = parameters.layers.find(id); layer != parameters.layers.end())
+      materials.insert(*layer);
+    else
+    {
+      std::ostringstream known;
+      for (const auto &[known_id, material] : parameters.layers)
+        known << ' ' << known_id;
+      reject("continuum: cell ", cell->active_cell_index(), " at (", cell->center(), ") m has the material id ", id,
+             ", which has no material; give it one beside those of", known.str(),
+             ", or put the cell into another layer");
+    }
+  }
+  for (const auto &[id, material] : parameters.layers)
+    if (!materials.contains(id))
+      reject("continuum: a material is given for the id ", id,
+             ", but no cell of the mesh has it; leave it out, or look for the cells that should");
+  return materials;
+}
+
+std::unique_ptr<ElementGroup> make_elements(const dealii::DoFHandler<3> &dof_handler,
+                                            const ExplicitBodyParameters &parameters)
+{
+  const std::map<unsigned int, Material> materials = materials_of(dof_handler, parameters);
+  if (parameters.layers.size() < 2)
+    return make_solid_elements(dof_handler, materials.begin()->second, parameters.initial_stress, parameters.hourglass);
+  std::vector<std::unique_ptr<ElementGroup>> groups;
+  std::map<unsigned int, std::size_t> group_of_id;
+  for (const auto &[id, material] : materials)
+  {
+    group_of_id[id] = groups.size();
+    groups.push_back(make_solid_elements(dof_handler, material, parameters.initial_stress, parameters.hourglass, id));
+  }
+  std::vector<std::size_t> group_of_element;
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    group_of_element.push_back(group_of_id.at(cell->material_id()));
+  return std::make_unique<LayeredElements>(std::move(groups), group_of_element);
+}
+
+} // namespace
+
 struct ExplicitBody::Mesh
 {
   Mesh(const dealii::Triangulation<3, 3> &mesh, const unsigned int degree)
@@ -56,11 +110,12 @@ ExplicitBody::ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const Explic
 }
 
 ExplicitBody::ExplicitBody(std::unique_ptr<Mesh> mesh, const ExplicitBodyParameters &p)
-    : MovingBody("continuum", node_positions(mesh->dof_handler),
-                 make_solid_elements(mesh->dof_handler, p.material, p.initial_stress, p.hourglass),
+    : MovingBody("continuum", node_positions(mesh->dof_handler), make_elements(mesh->dof_handler, p),
                  {p.gravity, p.damping}, p.wanted_time_step),
-      mesh_(std::move(mesh)), material_(p.material)
+      mesh_(std::move(mesh)), materials_(materials_of(mesh_->dof_handler, p))
 {
+  for (const auto &cell : mesh_->dof_handler.active_cell_iterators())
+    material_id_.push_back(cell->material_id());
 }
 
 ExplicitBody::ExplicitBody(ExplicitBody &&) noexcept = default;
@@ -69,6 +124,11 @@ ExplicitBody::~ExplicitBody() = default;
 const dealii::DoFHandler<3, 3> &ExplicitBody::dof_handler() const
 {
   return mesh_->dof_handler;
+}
+
+const Material &ExplicitBody::material(const std::size_t element) const
+{
+  return materials_.at(material_id_[element]);
 }
 
 void ExplicitBody::set_share(const std::span<const double> nodal_weight)

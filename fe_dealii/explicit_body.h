@@ -7,6 +7,7 @@
 #include "fe_dealii/moving_body.h"
 
 #include <array>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,6 +26,7 @@ namespace bergamo::fe
 struct ExplicitBodyParameters
 {
   Material material = MohrCoulomb(MohrCoulombParameters());
+  std::map<unsigned int, Material> layers;    ///< by the material ids of the mesh's cells; none: `material` everywhere
   unsigned int degree = 1;                    ///< of the elements: 1 has 8 nodes, 2 has 27
   Hourglass hourglass = Hourglass::at_points; ///< of elements of degree 1; those of 27 nodes bend anyway
   std::array<double, 3> gravity{0, 0, 0};     ///< [m/s²]
@@ -39,12 +41,13 @@ struct ExplicitBodyParameters
   void validate() const;
 };
 
-/// A continuum body of hexahedra of one material; see MovingBody for its motion.
+/// A continuum body of hexahedra of one material or several; see MovingBody for its motion.
 class ExplicitBody : public MovingBody
 {
 public:
   /// Copies the mesh. Throws ConfigError for bad parameters, an empty mesh, a mesh of anything but hexahedra,
-  /// hanging nodes, cells turned inside out or an initial stress that the material does not bear.
+  /// hanging nodes, cells turned inside out, a cell whose material id has no layer, a layer without cells, or an
+  /// initial stress that the material does not bear.
   ExplicitBody(const dealii::Triangulation<3, 3> &mesh, const ExplicitBodyParameters &parameters);
   ExplicitBody(ExplicitBody &&) noexcept;
   ~ExplicitBody() override;
@@ -58,14 +61,17 @@ public:
   std::vector<unsigned int> boundary_nodes(unsigned int boundary_id) const override;
   /// Numbers the vectors of the body: FESystem(FE_Q(degree), 3) on the body's own copy of the mesh.
   const dealii::DoFHandler<3, 3> &dof_handler() const;
-  const Material &material() const { return material_; }
+  const Material &material(std::size_t element = 0) const;
+  /// Of the mesh's cell; read_mesh() takes it from the file, set_material() from boxes.
+  unsigned int material_id(const std::size_t element) const { return material_id_[element]; }
 
 private:
   struct Mesh;
   ExplicitBody(std::unique_ptr<Mesh> mesh, const ExplicitBodyParameters &parameters);
 
   std::unique_ptr<Mesh> mesh_;
-  Material material_;
+  std::vector<unsigned int> material_id_;      // of the elements
+  std::map<unsigned int, Material> materials_; // by id
 };
 
 /// A body on the mesh that make_box() makes. Throws ConfigError for what either does not allow.

@@ -119,8 +119,8 @@ void MovingBody::compute_internal_force()
   if (progress_.has_forces != 0 && !has_moved())
     return;
   progress_.has_forces = 0;
-  const std::size_t n_elements = this->n_elements();
-  const std::size_t n_blocks = (n_elements + block_elements - 1) / block_elements;
+  const std::size_t n_places = elements_->n_places();
+  const std::size_t n_blocks = (n_places + block_elements - 1) / block_elements;
   const double *const now = displacement_.data();
   double *const before = displacement_of_stress_.data();
   const std::span<const double> element_force = elements_->forces();
@@ -131,7 +131,7 @@ void MovingBody::compute_internal_force()
                     for (std::size_t block = first; block < last; ++block)
                     {
                       const std::size_t begin = block * block_elements;
-                      const std::size_t end = std::min(n_elements, begin + block_elements);
+                      const std::size_t end = std::min(n_places, begin + block_elements);
                       if (const auto element = elements_->compute_forces(begin, end, now, before))
                         inverted.of(part).push_back(*element);
                     }
@@ -156,7 +156,7 @@ void MovingBody::compute_internal_force()
                     }
                   });
   if (const std::vector<std::size_t> all = inverted.all(); !all.empty())
-    report_failure(all.front());
+    report_failure(*std::min_element(all.begin(), all.end()));
   if (!endless.all().empty())
     report_endless_forces();
   progress_.has_forces = 1;
@@ -166,6 +166,18 @@ void MovingBody::compute_internal_force()
 struct MovingBody::Kick
 {
   double before, after, time; // the steps, and over which the forces act [s]
+  double half_damping;        // of a velocity, over half of the time [-]
+
+  double velocity_after(const double old, const double force, const double mass) const
+  {
+    return ((1 - half_damping) * old + time * force / mass) / (1 + half_damping);
+  }
+};
+
+/// A node with dashpots after a kick.
+struct MovingBody::Braked
+{
+  Dashpots::Vector velocity{}, drag{}; // [m/s], [N]
 };
 
 /// What nodes add to the accounts by a kick.
@@ -181,6 +193,7 @@ void MovingBody::Work::add(const Work &part)
   gravity += part.gravity;
   boundary += part.boundary;
   viscous += part.viscous;
+  radiated += part.radiated;
   step_change += part.step_change;
 }
 
@@ -189,7 +202,10 @@ void MovingBody::kick(const double dt)
   require(dt > 0 && std::isfinite(dt), name_ + ": the time step", dt, "a positive number of seconds");
   if (progress_.is_kicked != 0)
     throw RunError(name_ + ": kicked twice in one step; let a drift follow each kick");
-  const Kick kick{ledger_.last_step > 0 ? ledger_.last_step : dt, dt, kick_time(dt)};
+  if (!dashpots_.empty())
+    let_go_of_dashpots();
+  const Kick kick{ledger_.last_step > 0 ? ledger_.last_step : dt, dt, kick_time(dt),
+                  0.5 * forces_.damping * kick_time(dt)};
   const std::size_t n_blocks = (n_nodes() + block_nodes - 1) / block_nodes;
   std::vector<KickSums> sums(n_blocks);
   parallel_ranges(n_blocks, 1,
@@ -222,7 +238,6 @@ void MovingBody::kick(const double dt)
 
 MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t begin, const std::size_t end)
 {
-  const double half_damping = 0.5 * forces_.damping * kick.time;
   const double half_step_before = ledger_.last_step > 0 ? 0.5 * kick.before : 0, half_step_after = 0.5 * kick.after;
   // Of v⁺ − v⁻, to what it would be between two steps like the one before, and like the one after; none where the steps
   // are alike.
@@ -230,24 +245,28 @@ MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t 
   const bool changes = kick.before != kick.after;
   KickSums sums;
   for (std::size_t node = begin; node < end; ++node)
+  {
+    const bool is_braked = dashpots_.has(node);
+    const Braked braked = is_braked ? brake(kick, node) : Braked{};
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::size_t dof = 3 * node + i;
       const double mass = mass_[dof], old = velocity_[dof];
       const double external = external_force_[dof], weight = gravitational_mass_[node] * forces_.gravity[i];
+      const double held = is_braked ? held_force(dof) : 0, drag = braked.drag[i];
       const double force = external + weight - internal_force_[dof];
       const int constraint = constraint_of_dof_[dof];
       double fresh, damping, reaction = 0;
       if (constraint < 0)
       {
-        fresh = ((1 - half_damping) * old + kick.time * force / mass) / (1 + half_damping);
+        fresh = is_braked ? braked.velocity[i] : kick.velocity_after(old, force, mass);
         damping = 0.5 * forces_.damping * mass * (old + fresh);
       }
       else
       {
         fresh = constraint_velocity_[constraint];
         damping = 0.5 * forces_.damping * mass * (old + fresh);
-        reaction = mass * (fresh - old) / kick.time + damping - force;
+        reaction = mass * (fresh - old) / kick.time + damping + drag - force;
       }
       velocity_[dof] = fresh;
       reaction_force_[dof] = reaction;
@@ -263,13 +282,87 @@ MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t 
       {
         work.external += external * path;
         work.gravity += weight * path;
-        work.boundary += reaction * path;
+        work.boundary += (reaction + held) * path;
         work.viscous += damping * path;
+        work.radiated += drag * path;
       };
       add(sums.before, half_step_before * old);
       add(sums.after, half_step_after * fresh);
     }
+  }
   return sums;
+}
+
+MovingBody::Braked MovingBody::brake(const Kick &kick, const std::size_t node) const
+{
+  Dashpots::Kick of_node;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const std::size_t dof = 3 * node + i;
+    const double force = external_force_[dof] + weight(dof) + held_force(dof) - internal_force_[dof];
+    const int constraint = constraint_of_dof_[dof];
+    of_node.old[i] = velocity_[dof];
+    of_node.is_free[i] = constraint < 0;
+    of_node.without[i] =
+        constraint < 0 ? kick.velocity_after(velocity_[dof], force, mass_[dof]) : constraint_velocity_[constraint];
+    of_node.inertia[i] = mass_[dof] * (1 + kick.half_damping) / kick.time;
+  }
+  Braked braked;
+  braked.velocity = dashpots_.velocity_after(node, of_node);
+  Dashpots::Vector mean;
+  for (int i = 0; i < 3; ++i)
+    mean[i] = 0.5 * (of_node.old[i] + braked.velocity[i]);
+  braked.drag = dashpots_.drag(node, mean);
+  return braked;
+}
+
+void MovingBody::add_dashpots(const std::span<const Dashpot> dashpots)
+{
+  if (progress_.n_steps > 0 || progress_.is_kicked != 0)
+    reject(name_, ": dashpots are added after ", n_steps(), " steps; add them before the first");
+  for (const Dashpot &dashpot : dashpots)
+    if (dashpot.node >= n_nodes() || dashpot.element >= n_elements())
+      reject(name_, ": a dashpot at node ", dashpot.node, " of element ", dashpot.element, ", but there are only ",
+             n_nodes(), " nodes and ", n_elements(), " elements");
+  dashpots_.add(dashpots, n_nodes());
+  held_force_.assign(3 * n_nodes(), 0.);
+  progress_.is_rested = 0;
+  if (!hold_)
+    hold_ = prescribe_velocity(std::span<const unsigned int>(), 0);
+  for (const unsigned int node : dashpots_.nodes())
+    for (std::size_t i = 0; i < 3; ++i)
+      if (int &constraint = constraint_of_dof_[3 * std::size_t(node) + i]; constraint < 0)
+      {
+        constraint = static_cast<int>(hold_->place());
+        constraint_dofs_[hold_->place()].push_back(3 * node + i);
+      }
+}
+
+void MovingBody::let_go_of_dashpots()
+{
+  if (progress_.n_steps == 0 && progress_.is_rested == 0)
+    throw RunError(name_ + ": its first step begins with quiet boundaries that do not know what they hold; call "
+                           "find_equilibrium(), or rest() where it is at rest as it is, before");
+  if (hold_)
+    for (const unsigned int dof : constraint_dofs_[hold_->place()])
+      if (is_held_by_dashpots(dof))
+        constraint_of_dof_[dof] = -1;
+  hold_.reset();
+  std::vector<double> factor(dashpots_.elements().size());
+  parallel_for(factor.size(),
+               [&](const std::size_t k)
+               {
+                 const std::size_t element = dashpots_.elements()[k];
+                 factor[k] = std::sqrt(elements_->stiffness_factor(element) * mass_factor(element));
+               });
+  dashpots_.set_viscosity(factor);
+}
+
+std::array<double, 3> MovingBody::drag(const std::size_t node) const
+{
+  if (!dashpots_.has(node))
+    return {};
+  return dashpots_.drag(node, {velocity_[3 * node], velocity_[3 * node + 1], velocity_[3 * node + 2]});
 }
 
 void MovingBody::rest()
@@ -279,9 +372,12 @@ void MovingBody::rest()
     velocity_[dof] = 0;
     const double force = external_force_[dof] + weight(dof) - internal_force_[dof];
     reaction_force_[dof] = constraint_of_dof_[dof] < 0 ? 0 : -force;
+    if (is_held_by_dashpots(dof))
+      held_force_[dof] = -force;
   }
   ledger_ = {};
   progress_.is_kicked = 0;
+  progress_.is_rested = 1;
 }
 
 void MovingBody::drift(const double dt)
@@ -322,7 +418,7 @@ MovingBody::Constraint MovingBody::prescribe_velocity(const std::span<const unsi
   for (const unsigned int node : nodes)
   {
     const std::size_t dof = 3 * std::size_t(node) + component;
-    if (constraint_of_dof_[dof] >= 0)
+    if (constraint_of_dof_[dof] >= 0 && !is_held_by_dashpots(dof))
       continue;
     constraint_of_dof_[dof] = static_cast<int>(constraint.place());
     dofs.push_back(dof);
@@ -377,6 +473,7 @@ BodyEnergy MovingBody::energy() const
   energy.plastic_dissipation = elements_->dissipated_energy();
   energy.stiffness_loss = elements_->stiffness_loss();
   energy.viscous_dissipation = ledger_.here.viscous;
+  energy.radiated = ledger_.here.radiated;
   energy.boundary_work = ledger_.here.boundary;
   energy.gravity_work = ledger_.here.gravity;
   energy.external_work = ledger_.here.external;
@@ -417,6 +514,8 @@ std::vector<std::pair<std::string, std::span<double>>> MovingBody::state()
       {"constraint_velocity", {constraint_velocity_.data(), constraint_velocity_.size()}},
       {"ledger", {reinterpret_cast<double *>(&ledger_), sizeof(Ledger) / sizeof(double)}},
       {"progress", {reinterpret_cast<double *>(&progress_), sizeof(Progress) / sizeof(double)}}};
+  if (!dashpots_.empty())
+    result.push_back({"held_force", held_force_});
   for (auto &view : elements_->state())
     result.push_back(std::move(view));
   return result;

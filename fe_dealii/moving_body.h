@@ -3,6 +3,7 @@
 #include "dem/core/index.h"
 #include "dem/core/rows.h"
 #include "fe_dealii/body_energy.h"
+#include "fe_dealii/boundary/dashpots.h"
 #include "fe_dealii/element/element_group.h"
 
 #include <array>
@@ -60,8 +61,9 @@ public:
   /// v⁺ from v⁻ and the forces: m (v⁺ − v⁻)/h = f_ext + weight − f_int − α m (v⁻ + v⁺)/2 with h = kick_time(dt). The
   /// damping is centred: it adds no limit to the time step. Prescribed dofs take their velocity and get a reaction.
   /// @param dt of the step to come [s]; ConfigError unless it is positive and finite
-  /// Throws RunError for a second kick without a drift in between, which would accelerate the body twice, and, with
-  /// place and time, where a load or a motion is not finite.
+  /// Throws RunError for a second kick without a drift in between, which would accelerate the body twice, with place
+  /// and time where a load or a motion is not finite, and for a first step of a body with dashpots that rest() has not
+  /// been called for.
   void kick(double dt);
 
   /// u += dt v⁺. Throws RunError unless a kick with the same dt came before.
@@ -104,6 +106,22 @@ public:
   {
     return constraint_of_dof_[dof] < 0 ? std::nullopt : std::optional(Constraint(constraint_of_dof_[dof]));
   }
+
+  /// Puts dashpots between nodes and the ground: −C v on the node, with C of the element's present stiffness and
+  /// inertia (times sqrt(stiffness_factor · mass_factor)). Like the damping they are centred in time, node by node, and
+  /// add no limit to the time step. Until the first kick they hold the dofs of their nodes that no constraint names, as
+  /// walls would, so that the body can be brought to rest; the forces with which they hold at rest() stay as dead
+  /// loads. Throws ConfigError for a node or element out of range, and for a body that has moved.
+  void add_dashpots(std::span<const Dashpot> dashpots);
+
+  /// Dead load that dashpots' hold has left on a free dof [N].
+  double held_force(const std::size_t dof) const
+  {
+    return held_force_.empty() || constraint_of_dof_[dof] >= 0 ? 0 : held_force_[dof];
+  }
+
+  /// C v of a node's dashpots at its present velocity, with the viscosity of the last kick; none without [N].
+  std::array<double, 3> drag(std::size_t node) const;
 
   /// Elements whose nodes are all among these move as one rigid body, see ElementGroup::is_rigid().
   void make_rigid(std::span<const unsigned int> nodes);
@@ -178,6 +196,11 @@ protected:
 
 private:
   void scale_mass();
+  bool is_held_by_dashpots(const std::size_t dof) const
+  {
+    return hold_ && constraint_of_dof_[dof] == static_cast<int>(hold_->place());
+  }
+  void let_go_of_dashpots();
   [[noreturn]] void report_failure(std::size_t element) const;
   [[noreturn]] void report_endless_forces() const;
   [[noreturn]] void report_endless_motion() const;
@@ -200,9 +223,13 @@ private:
   std::vector<std::vector<unsigned int>> constraint_dofs_;
   std::vector<double> constraint_velocity_;
 
+  Dashpots dashpots_;
+  std::optional<Constraint> hold_; // of the dashpots until the first kick
+  std::vector<double> held_force_; // of all dofs; none without dashpots
+
   struct Work // accumulated, trapezoidal
   {
-    double external = 0, gravity = 0, boundary = 0, viscous = 0, step_change = 0;
+    double external = 0, gravity = 0, boundary = 0, viscous = 0, radiated = 0, step_change = 0;
 
     void add(const Work &part);
   };
@@ -222,11 +249,14 @@ private:
     double is_kicked = 0;  // 1 from a kick to its drift
     double n_steps = 0;    // drifts so far
     double time = 0;       // their sum [s]
+    double is_rested = 0;  // 1 after rest()
   };
   Progress progress_;
 
   struct Kick;
   struct KickSums;
+  struct Braked;
+  Braked brake(const Kick &kick, std::size_t node) const;
   KickSums kick_nodes(const Kick &kick, std::size_t begin, std::size_t end);
   bool has_moved() const; // since the forces were computed
 };

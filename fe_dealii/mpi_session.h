@@ -6,7 +6,8 @@ namespace bergamo::fe
 {
 
 /// MPI and deal.II of a program, for as long as it lives: deal.II has one thread of its own, and its mistakes are
-/// exceptions. One a program, made before anything that needs MPI (equilibrium/).
+/// exceptions. One a program, made before anything that needs MPI (equilibrium/). Leaves no files, however the program
+/// ends.
 class MpiSession
 {
 public:

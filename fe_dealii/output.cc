@@ -14,6 +14,7 @@
 #include <fstream>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace bergamo::fe
@@ -82,20 +83,26 @@ void write(const Body &body, const std::vector<std::string> &names, const std::v
 
 void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
 {
-  const std::vector<std::string> names{"stress_xx",
-                                       "stress_yy",
-                                       "stress_zz",
-                                       "stress_xy",
-                                       "stress_yz",
-                                       "stress_zx",
-                                       "principal_stress_1",
-                                       "principal_stress_2",
-                                       "principal_stress_3",
-                                       "pressure",
-                                       "deviatoric_stress",
-                                       "yield_function",
-                                       "equivalent_plastic_strain",
-                                       "elastic_energy_density"};
+  std::vector<std::string> names{"stress_xx",
+                                 "stress_yy",
+                                 "stress_zz",
+                                 "stress_xy",
+                                 "stress_yz",
+                                 "stress_zx",
+                                 "principal_stress_1",
+                                 "principal_stress_2",
+                                 "principal_stress_3",
+                                 "pressure",
+                                 "deviatoric_stress",
+                                 "yield_function",
+                                 "equivalent_plastic_strain",
+                                 "elastic_energy_density",
+                                 "material_id"};
+  bool has_voids = false;
+  for (std::size_t e = 0; e < body.n_elements(); ++e)
+    has_voids = has_voids || std::holds_alternative<HypoplasticSand>(body.material(e));
+  if (has_voids)
+    names.push_back("void_ratio");
   std::vector<dealii::Vector<float>> cell_data(names.size(), dealii::Vector<float>(body.n_elements()));
   for (std::size_t e = 0; e < body.n_elements(); ++e)
   {
@@ -111,6 +118,9 @@ void write_vtu(const ExplicitBody &body, const std::filesystem::path &path)
     cell_data[11][e] = state.yield_function;
     cell_data[12][e] = state.plastic_strain;
     cell_data[13][e] = state.energy_density;
+    cell_data[14][e] = body.material_id(e);
+    if (has_voids)
+      cell_data[15][e] = state.void_ratio;
   }
   write<3>(body, names, cell_data, path);
 }

@@ -38,7 +38,7 @@ double BodyMover::stable_step()
 MoverEnergy BodyMover::energy() const
 {
   const fe::BodyEnergy e = body_->energy();
-  return {e.kinetic, e.elastic, e.plastic_dissipation + e.viscous_dissipation + e.stiffness_loss,
+  return {e.kinetic, e.elastic, e.plastic_dissipation + e.viscous_dissipation + e.radiated + e.stiffness_loss,
           e.boundary_work + e.gravity_work};
 }
 

@@ -26,7 +26,7 @@ ModelEnergy energy_of(const TwoScaleModel &model)
     e.continuum_elastic = b.elastic;
     e.plastic_loss = b.plastic_dissipation;
     e.stiffness_loss = b.stiffness_loss;
-    e.viscous_loss += b.viscous_dissipation;
+    e.viscous_loss += b.viscous_dissipation + b.radiated;
     e.wall_work += b.boundary_work;
     e.gravity_work += b.gravity_work;
   }

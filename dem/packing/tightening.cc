@@ -59,7 +59,8 @@ public:
 
   Tightening run()
   {
-    while (now.smallest_size < 1. && static_cast<int>(result.steps.size()) < p.max_iterations && !is_stuck())
+    while (now.smallest_size < 1. && static_cast<int>(result.steps.size()) < p.max_iterations && !is_stuck() &&
+           !(p.is_stopped && p.is_stopped()))
     {
       advance();
       measure();

@@ -3,6 +3,7 @@
 #include "dem/packing/random_addition.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct TighteningParameters
   double size_step = 0.0015;            ///< growth at most beyond the mean size, in one iteration
   double translation_probability = 0.5; ///< otherwise a grain turns
   int max_iterations = 2000;
+  std::function<bool()> is_stopped{}; ///< asked before each iteration; the tightening ends early where it says so
 
   /// Throws ConfigError for a value out of its range.
   void validate() const;
@@ -57,7 +59,8 @@ struct Tightening
 ///
 /// No grain grows beyond the mean size by more than the size step, so all grow together, and at the end all are full
 /// size exactly. Growing slowly is quicker: grains that ran ahead would lock others in (0.0015: 167 iterations to 0.55,
-/// 0.003: 389). Ends at the full size, after the largest number of iterations, or when the grains no longer grow.
+/// 0.003: 389). Ends at the full size, after the largest number of iterations, when the grains no longer grow, or when
+/// it is stopped.
 /// @param grains at full size; @param start free of contacts
 /// @throws ConfigError for a periodic box of at most two tightening ranges
 Tightening tighten(std::span<const Superquadric> grains, const PackingSpace &space, const LoosePacking &start,

@@ -4,7 +4,7 @@ namespace bergamo::driver
 {
 
 /// Throws ConfigError with the remedy where MPI would not start, which it tells in pages of its own and then ends the
-/// program: where it cannot make its folder (TMPDIR), or may not open its files.
+/// program: where it may not open its files.
 void require_mpi_can_start();
 
 } // namespace bergamo::driver

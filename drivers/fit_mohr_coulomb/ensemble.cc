@@ -33,12 +33,12 @@ std::string list_text(const std::set<double> &values)
   return text;
 }
 
-/// The rows of the last stage.
-TriaxialCurve read_shear(const std::filesystem::path &path)
+/// The last two stages: reads both curves of a sample.
+void read_history(const std::filesystem::path &path, Sample &sample)
 {
   const CsvTable table = read_csv(path, {"time_s", "stage", "strain_x", "strain_y", "strain_z", "volumetric_strain",
                                          "stress_xx_Pa", "stress_yy_Pa", "stress_zz_Pa", "solid_fraction"});
-  TriaxialCurve curve;
+  TriaxialCurve &curve = sample.curve;
   if (table.n_rows == 0)
     throw ConfigError("'" + path.string() + "' has no rows; the sample was not sheared");
   const std::vector<double> &stage = table["stage"];
@@ -52,12 +52,17 @@ TriaxialCurve read_shear(const std::filesystem::path &path)
       curve.lateral_stress.push_back(0.5 * (table["stress_xx_Pa"][i] + table["stress_yy_Pa"][i]));
       curve.solid_fraction.push_back(table["solid_fraction"][i]);
     }
+    else if (stage[i] == shear - 1)
+    {
+      sample.compression.pressure.push_back(
+          -(table["stress_xx_Pa"][i] + table["stress_yy_Pa"][i] + table["stress_zz_Pa"][i]) / 3);
+      sample.compression.solid_fraction.push_back(table["solid_fraction"][i]);
+    }
   if (std::abs(curve.axial_strain.front()) > start_tolerance)
     throw ConfigError("'" + path.string() + "': strain_z is " + short_text(curve.axial_strain.front()) +
                       " in the first row of stage " + short_text(shear) +
                       "; strains must count from the end of the isotropic compression, and the last stage must be "
                       "the shear");
-  return curve;
 }
 
 /// A warning where the lateral pressure strays, or nothing.
@@ -131,8 +136,13 @@ Ensemble read_ensemble(const std::filesystem::path &folder, const SampleChoice &
   {
     const std::string place = std::string("'") + list.string() + "' row " + std::to_string(i + 1);
     check_row(table["sample"][i], table["confining_pressure_Pa"][i], place);
-    Sample sample{static_cast<int>(table["sample"][i]), table["edge_m"][i],      table["generation_friction"][i],
-                  table["confining_pressure_Pa"][i],    table["n_particles"][i], {}};
+    Sample sample{static_cast<int>(table["sample"][i]),
+                  table["edge_m"][i],
+                  table["generation_friction"][i],
+                  table["confining_pressure_Pa"][i],
+                  table["n_particles"][i],
+                  {},
+                  {}};
     if (!numbers.insert(sample.number).second)
       throw ConfigError(place + ": sample " + std::to_string(sample.number) + " stands there twice; remove one");
     if (table["finished"][i] != 1)
@@ -147,7 +157,7 @@ Ensemble read_ensemble(const std::filesystem::path &folder, const SampleChoice &
       ++n_other;
       continue;
     }
-    sample.curve = read_shear(folder / "samples" / name_of(sample.number) / "history.csv");
+    read_history(folder / "samples" / name_of(sample.number) / "history.csv", sample);
     if (const std::string warning = pressure_warning(sample); !warning.empty())
       ensemble.warnings.push_back(warning);
     ensemble.samples.push_back(std::move(sample));

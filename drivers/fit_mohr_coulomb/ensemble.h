@@ -10,6 +10,15 @@
 namespace bergamo::driver
 {
 
+/// Isotropic compression, one number a row in each vector.
+struct CompressionCurve
+{
+  std::vector<double> pressure; ///< mean [Pa], compression positive
+  std::vector<double> solid_fraction;
+
+  std::size_t size() const { return pressure.size(); }
+};
+
 /// One triaxial test of an ensemble.
 struct Sample
 {
@@ -18,7 +27,8 @@ struct Sample
   double generation_friction;
   double confining_pressure; ///< [Pa], compression positive
   double n_particles;
-  TriaxialCurve curve; ///< of the last stage
+  TriaxialCurve curve;            ///< of the last stage
+  CompressionCurve compression{}; ///< of the stage before it, which raises the pressure; empty without one
 };
 
 struct Ensemble

@@ -3,9 +3,11 @@
 #include "drivers/common/report_run.h"
 #include "drivers/common/run_folder.h"
 #include "drivers/fit_mohr_coulomb/report.h"
+#include "drivers/fit_mohr_coulomb/report_laws.h"
 
 #include <chrono>
 #include <iostream>
+#include <optional>
 
 namespace
 {
@@ -29,13 +31,16 @@ int job(const CommandLine &command_line)
   parameters.validate();
   require_apart(command_line.output, parameters.ensemble);
 
-  RunFolder folder(command_line,
-                   {"fit_mohr_coulomb.json", "continuum.prm", "curves_grains.csv", "curves_continuum.csv"});
+  RunFolder folder(command_line, {"fit_mohr_coulomb.json", "continuum.prm", "curves_grains.csv", "curves_continuum.csv",
+                                  "sand.json", "sand.prm", "curves_laws.csv"});
   const Ensemble ensemble = read_ensemble(parameters.ensemble, parameters.choice);
   warn(ensemble.warnings);
   const EnsembleFit fit = fit_ensemble(ensemble.samples, parameters);
   warn(fit.warnings);
   const CurveTables curves = curve_tables(ensemble, fit);
+  std::optional<LawComparison> laws;
+  if (parameters.sand.is_wanted)
+    laws = compare_laws(ensemble, fit, parameters);
 
   folder.open();
   file.write_resolved(folder.parameters());
@@ -44,12 +49,23 @@ int job(const CommandLine &command_line)
   bergamo::write_whole_file(folder.file("curves_grains.csv"), curves.grains);
   bergamo::write_whole_file(folder.file("curves_continuum.csv"), curves.continuum);
 
+  if (laws)
+  {
+    bergamo::write_whole_file(folder.file("sand.json"), laws_json(*laws));
+    bergamo::write_whole_file(folder.file("sand.prm"), sand_text(*laws, fit, parameters.ensemble));
+    bergamo::write_whole_file(folder.file("curves_laws.csv"), law_table(*laws));
+  }
+
   Summary summary;
   summary.set("wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), "s");
   add_figures(summary, fit);
-  report_run(summary, folder, command_line,
-             {{"fit_mohr_coulomb/plot.py", {folder.path().string()}},
-              {"fit_mohr_coulomb/plot_ensemble.py", {folder.path().string()}}});
+  if (laws)
+    add_figures(summary, *laws);
+  std::vector<PlotJob> plots{{"fit_mohr_coulomb/plot.py", {folder.path().string()}},
+                             {"fit_mohr_coulomb/plot_ensemble.py", {folder.path().string()}}};
+  if (laws)
+    plots.push_back({"fit_mohr_coulomb/plot_laws.py", {folder.path().string()}});
+  report_run(summary, folder, command_line, plots);
   if (!command_line.quiet)
     std::cout << "continuum: " << folder.file("continuum.prm").string() << '\n';
   return done;

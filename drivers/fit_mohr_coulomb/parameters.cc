@@ -48,6 +48,16 @@ void FitParameters::declare(ParameterFile &file)
 
   file.add("Grains", "density", grain_density,
            "of the mineral; times the initial solid fraction it is the continuum's density [kg/m3]", Range::positive());
+
+  file.add("Sand", "fit", sand.is_wanted,
+           "fit hypoplastic sand, too, to all densities and pressures together, which must be several");
+  file.add("Sand", "loosest over critical", sand.loosest_over_critical,
+           "e_i0 over e_c0, which these tests do not tell; 1.15 is usual, 1.2 for spheres", Range::between(1, 2));
+  file.add("Sand", "densest void ratio", sand.densest_void_ratio, "e_d0, where it is known; 0: fitted",
+           Range::non_negative());
+  file.add("Sand", "compression from", sand.compression_from,
+           "share of the confining pressure from which the isotropic compression counts",
+           Range::strictly_between(0, 1));
 }
 
 bool takes(const std::vector<double> &list, const double value)

@@ -29,6 +29,15 @@ enum class StiffnessLaw
   power     ///< E = E_r (p / p_r)^m
 };
 
+/// What steers the fit of the law of sand (hypoplasticity), which stands for all densities at once.
+struct SandFitParameters
+{
+  bool is_wanted = false;
+  double loosest_over_critical = 1.15; ///< e_i0 / e_c0
+  double densest_void_ratio = 0;       ///< e_d0; 0: it is fitted
+  double compression_from = 0.1;       ///< share of the confining pressure from which the compression counts
+};
+
 /// Everything that steers the fit. SI units.
 struct FitParameters
 {
@@ -41,6 +50,7 @@ struct FitParameters
   CohesionSource cohesion_source = CohesionSource::given;
   double cohesion = 15;         ///< [Pa], where it is given
   double grain_density = 2650.; ///< [kg/m3]
+  SandFitParameters sand;
 
   /// Binds every parameter to its name in the parameter file.
   void declare(ParameterFile &file);

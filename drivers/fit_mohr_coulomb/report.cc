@@ -1,13 +1,11 @@
 #include "drivers/fit_mohr_coulomb/report.h"
 
 #include "drivers/common/continuum_parameters.h"
-#include "drivers/common/number_text.h"
+#include "drivers/fit_mohr_coulomb/csv_row.h"
 #include "drivers/fit_mohr_coulomb/mean_curve.h"
 #include "drivers/fit_mohr_coulomb/triaxial_path.h"
 
 #include <nlohmann/json.hpp>
-
-#include <initializer_list>
 
 namespace bergamo::driver
 {
@@ -72,19 +70,6 @@ Json json_of(const fe::MohrCoulombParameters &continuum)
           {"density_kg_m3", continuum.density}};
 }
 
-std::string row_of(const std::initializer_list<double> values)
-{
-  std::string row;
-  for (const double value : values)
-  {
-    if (!row.empty())
-      row += ',';
-    row += exact_text(value);
-  }
-  row += '\n';
-  return row;
-}
-
 /// The samples' curves under one pressure.
 std::vector<const TriaxialCurve *> curves_under(const double pressure, const std::vector<Sample> &samples)
 {
@@ -134,10 +119,10 @@ std::string fit_json(const Ensemble &ensemble, const EnsembleFit &fit, const Fit
 
 std::string continuum_text(const EnsembleFit &fit, const std::string &ensemble_folder)
 {
-  fe::MohrCoulombParameters continuum = fit.continuum;
+  ContinuumParameters continuum{.law = ContinuumLaw::mohr_coulomb, .mohr_coulomb = fit.continuum, .sand = {}};
   ParameterFile file("Continuum fitted by fit_mohr_coulomb to " + std::to_string(fit.all.n_samples) + " samples of " +
                      ensemble_folder);
-  declare_continuum(file, continuum);
+  continuum.declare(file);
   return file.resolved_text();
 }
 

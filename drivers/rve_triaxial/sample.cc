@@ -5,6 +5,7 @@
 #include "dem/measure/contact_distributions.h"
 #include "dem/measure/contact_list.h"
 #include "dem/measure/solid_fraction.h"
+#include "drivers/common/interrupt.h"
 #include "drivers/common/run/measured_columns.h"
 #include "drivers/common/run/step_count.h"
 #include "drivers/common/run/visit_models.h"
@@ -49,8 +50,8 @@ bool SampleRun::run()
   const bool goes_on = std::filesystem::exists(snapshot.path());
   if (goes_on)
     go_on();
-  else
-    begin();
+  else if (!begin())
+    return false;
   const auto opened = [&](const char *name, const std::vector<std::string> &columns)
   { return goes_on ? History::continued(folder / name, columns, loop.last_time()) : History(folder / name, columns); };
   Table table{{{"time_s", [&] { return now.time; }}, {"stage", [&] { return static_cast<double>(stage); }}}};
@@ -107,15 +108,18 @@ void SampleRun::go_on()
   }
 }
 
-void SampleRun::begin()
+bool SampleRun::begin()
 {
   std::filesystem::create_directories(folder);
   dem::PackingParameters packing;
   packing.solid_fraction = parameters.packing_solid_fraction;
   packing.density = parameters.simulation.grain().density;
+  packing.tightening.is_stopped = interrupted;
   const Vec3 edges = Vec3::Constant(settings.edge);
   const auto space = dem::PackingSpace::periodic({Vec3::Zero(), edges});
   dem::PackedGrains packed = parameters.sizes.pack(space, packing, settings.seed);
+  if (interrupted())
+    return false;
   if (!packed.report.has_reached_target)
     throw RunError("the geometric packing got stuck at a solid fraction of " +
                    std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +
@@ -127,6 +131,7 @@ void SampleRun::begin()
   simulation = std::make_unique<dem::Simulation>(p, std::move(packed.particles), std::vector<dem::PlaneWall>{});
   f.n_particles = static_cast<double>(simulation->particles.size());
   begin_stage();
+  return true;
 }
 
 void SampleRun::make_loading()

@@ -32,7 +32,7 @@ public:
 private:
   void visit(StateVisitor &visit);
   void go_on();
-  void begin();
+  bool begin(); ///< @return false where it was stopped on the way; a restart begins it anew
   void make_loading();
   void begin_stage();
   void end_stage();

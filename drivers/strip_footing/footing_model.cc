@@ -1,11 +1,13 @@
 #include "drivers/strip_footing/footing_model.h"
 
 #include "fe_dealii/mesh/box_mesh.h"
+#include "fe_dealii/mesh/material_box.h"
 
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace bergamo::driver
@@ -34,22 +36,33 @@ fe::ExplicitBody make_ground(const FootingParameters &p)
   box.maximum = {size * box.subdivisions[0], size, 0};
   dealii::Triangulation<3> mesh;
   fe::make_box(box, mesh);
+  constexpr double everywhere = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < p.layer_depths.size(); ++k) // each takes what is below it from the one before
+    fe::set_material({{-everywhere, -everywhere, -everywhere},
+                      {everywhere, everywhere, p.layer_top(k)},
+                      static_cast<unsigned int>(k + 1)},
+                     mesh);
   for (const auto &cell : mesh.active_cell_iterators())
     for (const auto &face : cell->face_iterators())
       if (face->at_boundary() && face->boundary_id() == surface && face->center()[0] < p.elements_across * size)
         face->set_boundary_id(footing);
 
   fe::ExplicitBodyParameters body;
-  body.material = fe::MohrCoulomb(p.continuum);
+  body.layers = {{0u, p.continuum.material()}};
+  for (std::size_t k = 0; k < p.layer_depths.size(); ++k)
+    body.layers.insert({static_cast<unsigned int>(k + 1), p.deeper[k].material()});
   body.degree = p.degree;
   body.hourglass = p.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
   body.gravity = {0, 0, -p.gravity};
   body.damping = p.damping;
+  fe::GeostaticStress ground{.surface_height = 0,
+                             .unit_weight = p.continuum.density() * p.gravity,
+                             .earth_pressure_at_rest = p.earth_pressure_at_rest,
+                             .surcharge = p.surcharge};
+  for (std::size_t k = 0; k < p.layer_depths.size(); ++k)
+    ground.deeper.push_back({p.layer_top(k), p.deeper[k].density() * p.gravity});
   if (p.gravity > 0 || p.surcharge > 0)
-    body.initial_stress = fe::geostatic_stress({.surface_height = 0,
-                                                .unit_weight = p.continuum.density * p.gravity,
-                                                .earth_pressure_at_rest = p.earth_pressure_at_rest,
-                                                .surcharge = p.surcharge});
+    body.initial_stress = fe::geostatic_stress(ground);
   return fe::ExplicitBody(mesh, body);
 }
 
@@ -77,9 +90,14 @@ FootingModel::FootingModel(const FootingParameters &p)
   list.push_back(motion(footing, 2, velocity_of(p)));
   if (p.rough)
     list.push_back(motion(footing, 0));
-  for (const auto &[boundary, component] : {std::pair(axis, 0u), std::pair(far_side, 0u), std::pair(front, 1u),
-                                            std::pair(back, 1u), std::pair(bottom, 0u), std::pair(bottom, 2u)})
+  for (const auto &[boundary, component] : {std::pair(axis, 0u), std::pair(front, 1u), std::pair(back, 1u)})
     list.push_back(motion(boundary, component));
+  if (p.far_boundaries == FarBoundaries::held)
+    for (const auto &[boundary, component] : {std::pair(far_side, 0u), std::pair(bottom, 0u), std::pair(bottom, 2u)})
+      list.push_back(motion(boundary, component));
+  else
+    for (const unsigned int boundary : {unsigned(far_side), unsigned(bottom)})
+      list.push_back({boundary, fe::ConditionKind::quiet, 0, 0.});
   conditions = std::make_unique<fe::BoundaryConditions>(*ground, std::move(list));
   footing_nodes = ground->boundary_nodes(footing);
 

@@ -55,6 +55,7 @@ private:
                      {"energy_plastic_loss_J", [&] { return energy.plastic_dissipation; }},
                      {"energy_viscous_loss_J", [&] { return energy.viscous_dissipation; }},
                      {"energy_stiffness_loss_J", [&] { return energy.stiffness_loss; }},
+                     {"energy_radiated_J", [&] { return energy.radiated; }},
                      {"energy_footing_work_J", [&] { return energy.boundary_work; }},
                      {"energy_gravity_work_J", [&] { return energy.gravity_work; }},
                      {"energy_surcharge_work_J", [&] { return energy.external_work; }},
@@ -90,12 +91,14 @@ int FootingRun::go()
     model.kick();
   };
   stage.move = [&] { model.drift(); };
-  const auto is_at_the_limit = [&](const Moment &now) { return now.time >= (1 - bearing_share) * end; };
+  const auto at_the_limit = [&](const Moment &now) { return now.time >= (1 - bearing_share) * end; };
+  const auto see = [&] { bearing.see(model.footing_pressure(), parameters.settlement_at(time())); };
   const auto add_bearing = [&] { bearing.add(model.footing_pressure(), model.time_step()); };
   const auto times = [&](const auto n) { return either(every_time(end / std::max<double>(1, n)), at_the_end()); };
   const auto add_picture = [&] { pictures.add(time(), pictures_of(nullptr, &model.body())); };
   const bool is_done = run.advance(stage, {{times(parameters.output.n_samples), [&] { sample(history); }},
-                                           {is_at_the_limit, add_bearing},
+                                           {every_steps(1), see},
+                                           {at_the_limit, add_bearing},
                                            {times(parameters.output.n_pictures - 1), add_picture}});
   return is_done ? run.finish(summary(), {"strip_footing/plot.py", "energy.py"}) : run.stop();
 }
@@ -111,7 +114,6 @@ void FootingRun::sample(History &history)
 
 Summary FootingRun::summary() const
 {
-  const LimitPressure limit = parameters.limit_pressure();
   RunFigures figures = run.figures(0);
   figures.steps = run.loop().step();
   figures.time_step_s = model.steps().smallest_step();
@@ -124,13 +126,12 @@ Summary FootingRun::summary() const
   summary.set("elements", static_cast<std::int64_t>(model.body().n_elements()));
   summary.set("element_updates_per_second", updates / figures.wall_time_s, "1/s");
   summary.set("start_out_of_balance", model.start().residual.back());
-  summary.set("bearing_pressure_Pa", bearing.mean(), "Pa");
-  summary.set("bearing_pressure_lowest_Pa", bearing.lowest(), "Pa");
-  summary.set("bearing_pressure_highest_Pa", bearing.highest(), "Pa");
-  summary.set("limit_pressure_Pa", limit.davis, "Pa");
-  summary.set("limit_pressure_associated_Pa", limit.associated, "Pa");
-  summary.set("bearing_over_limit", bearing.mean() / limit.davis);
-  summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
+  bearing.add_figures(summary);
+  if (parameters.layer_depths.empty()) // the closed form is of one layer
+    parameters.limit_pressure().add_figures(summary, bearing.mean());
+  if (!parameters.continuum.is_sand()) // which stores no energy
+    summary.set("kinetic_over_elastic_energy", energy.kinetic / energy.elastic);
+  summary.set("kinetic_energy_over_footing_work", energy.kinetic / energy.boundary_work);
   summary.set("greatest_rotation_degrees", rotation.greatest(), "degrees");
   summary.set("stiffness_loss_over_footing_work", energy.stiffness_loss / energy.boundary_work);
   return summary;
@@ -143,8 +144,7 @@ int main(int argc, char **argv)
   return run_driver(
       argc, argv,
       {"strip_footing",
-       "Presses a strip footing into Mohr-Coulomb ground in plane strain, from the ground at rest to the "
-       "limit load, and compares it with the closed form."},
+       "Presses a strip footing into the ground in plane strain, from rest to the limit load: closed form beside it."},
       [](const CommandLine &command_line)
       { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line, true); });
 }

@@ -1,7 +1,7 @@
 #include "drivers/strip_footing/parameters.h"
 
 #include "dem/core/error.h"
-#include "drivers/common/continuum_parameters.h"
+#include "drivers/common/number_text.h"
 #include "drivers/strip_footing/bearing_capacity.h"
 
 #include <cstdint>
@@ -12,12 +12,13 @@ namespace bergamo::driver
 
 FootingParameters::FootingParameters()
 {
-  continuum.young_modulus = 20e6;
-  continuum.poisson_ratio = 0.3;
-  continuum.friction_angle = 0;
-  continuum.dilation_angle = 0;
-  continuum.cohesion = 10e3;
-  continuum.density = 1800;
+  continuum.mohr_coulomb = {.young_modulus = 20e6,
+                            .poisson_ratio = 0.3,
+                            .friction_angle = 0,
+                            .dilation_angle = 0,
+                            .cohesion = 10e3,
+                            .density = 1800};
+  deeper.fill(continuum);
   output.n_pictures = 2;
 }
 
@@ -44,8 +45,17 @@ void FootingParameters::declare(ParameterFile &file)
   file.add("Ground", "surcharge", surcharge, "on the whole surface [Pa]", Range::non_negative());
   file.add("Ground", "earth pressure at rest", earth_pressure_at_rest, "K0: horizontal over vertical stress at rest",
            Range::non_negative());
+  file.add("Ground", "far boundaries", far_boundaries,
+           "far side and bottom; quiet ones let waves leave, but give way to what presses for long",
+           {{"held", FarBoundaries::held}, {"quiet", FarBoundaries::quiet}});
+  file.add(
+      "Ground", "layer depths", layer_depths,
+      "where Layer 2, Layer 3 and Layer 4 begin, each at the next edge of elements; empty: one layer, Continuum [m]",
+      Range::positive());
 
-  declare_continuum(file, continuum);
+  continuum.declare(file);
+  for (std::size_t k = 0; k < deeper.size(); ++k)
+    deeper[k].declare(file, "Layer " + std::to_string(k + 2));
   file.add("Continuum", "damping", damping, "mass-proportional [1/s]", Range::non_negative());
 
   file.add("Output", "step share", step_share, "of the stable time step", Range::strictly_between(0, 1));
@@ -55,6 +65,16 @@ void FootingParameters::declare(ParameterFile &file)
 void FootingParameters::validate() const
 {
   continuum.validate();
+  if (layer_depths.size() > deeper.size())
+    reject("Ground/layer depths has ", layer_depths.size(), " depths: there are materials for ", deeper.size(),
+           " deeper layers, Layer 2 to Layer ", deeper.size() + 1);
+  for (std::size_t k = 0; k < layer_depths.size(); ++k)
+  {
+    deeper[k].validate();
+    if (k > 0 && !(layer_depths[k] > layer_depths[k - 1]))
+      reject("Ground/layer depths: ", layer_depths[k], " m follows ", layer_depths[k - 1],
+             " m; give them from the surface downwards");
+  }
   if (ground_width < width)
     reject(
         "Ground/width is ", ground_width, " m beside a footing of ", width,
@@ -72,11 +92,22 @@ void FootingParameters::validate() const
     reject("Ground/bending elements are of degree 1, but Ground/element degree is ", degree,
            "; choose degree 1, or no bending elements: those of 27 nodes bend anyway");
   if (!(limit_pressure().davis > 0))
-    reject("the ground bears no footing: Continuum/cohesion is ", continuum.cohesion, ", Ground/surcharge ", surcharge,
-           " and Ground/gravity ", gravity, "; one of them must be positive");
+    reject("the ground bears no footing: ",
+           continuum.is_sand() ? "" : "Continuum/cohesion is " + short_text(continuum.mohr_coulomb.cohesion) + ", ",
+           "Ground/surcharge is ", surcharge, " and Ground/gravity ", gravity, "; one of them must be positive");
+  const double vertical = surcharge + 0.5 * element_size() * continuum.density() * gravity;
+  continuum.require_pressure(vertical * (1 + 2 * earth_pressure_at_rest) / 3,
+                             "half an element below the surface the ground has", "raise Ground/surcharge");
   if (settlement > 0.2 * width)
     reject("Footing/settlement is ", settlement, " m: strains are small up to about a fifth of Footing/width, ",
            0.2 * width, " m");
+}
+
+void LimitPressure::add_figures(Summary &summary, const double bearing) const
+{
+  summary.set("limit_pressure_Pa", davis, "Pa");
+  summary.set("limit_pressure_associated_Pa", associated, "Pa");
+  summary.set("bearing_over_limit", bearing / davis);
 }
 
 LimitPressure FootingParameters::limit_pressure() const
@@ -85,10 +116,13 @@ LimitPressure FootingParameters::limit_pressure() const
   {
     const BearingFactors n = bearing_factors(strength.friction_angle, rough);
     return strength.cohesion * n.cohesion + surcharge * n.surcharge +
-           0.5 * continuum.density * gravity * width * n.weight;
+           0.5 * continuum.density() * gravity * width * n.weight;
   };
-  const Strength full{continuum.friction_angle, continuum.cohesion};
-  return {pressure(davis_strength(full, continuum.dilation_angle)), pressure(full)};
+  const Strength full = continuum.is_sand()
+                            ? Strength{continuum.sand.critical_friction_angle, 0}
+                            : Strength{continuum.mohr_coulomb.friction_angle, continuum.mohr_coulomb.cohesion};
+  const double dilation_angle = continuum.is_sand() ? 0 : continuum.mohr_coulomb.dilation_angle;
+  return {pressure(davis_strength(full, dilation_angle)), pressure(full)};
 }
 
 } // namespace bergamo::driver

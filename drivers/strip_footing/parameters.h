@@ -1,20 +1,34 @@
 #pragma once
 
+#include "drivers/common/continuum_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
-#include "fe_dealii/material/mohr_coulomb.h"
+#include "drivers/common/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace bergamo::driver
 {
 
-/// Limit pressures in closed form [Pa].
+/// Limit pressures in closed form [Pa]. Of sand, with the friction of its critical state and no dilation: what dense
+/// ground exceeds and loose ground comes near at large settlements.
 struct LimitPressure
 {
   double davis;      ///< with the strength that the flow rule leaves, see davis_strength()
   double associated; ///< as if the dilation angle were the friction angle: the same there, an upper bound else
+
+  /// @param bearing pressure that the run gave [Pa]
+  void add_figures(Summary &summary, double bearing) const;
+};
+
+/// What holds the ground where it goes on beyond the mesh: its far side and its bottom.
+enum class FarBoundaries
+{
+  held, ///< rollers at the side, a rough floor
+  quiet ///< both let waves leave
 };
 
 /// Everything that steers the footing. SI units; angles in degrees.
@@ -37,8 +51,12 @@ struct FootingParameters
   double surcharge = 0;              ///< on the whole surface [Pa]
   double earth_pressure_at_rest = 1; ///< K0
 
-  fe::MohrCoulombParameters continuum;
-  double damping = 5; ///< mass-proportional [1/s]
+  FarBoundaries far_boundaries = FarBoundaries::held;
+
+  ContinuumParameters continuum;
+  std::vector<double> layer_depths;            ///< where deeper layers begin, growing [m]
+  std::array<ContinuumParameters, 3> deeper{}; ///< of these
+  double damping = 5;                          ///< mass-proportional [1/s]
 
   double step_share = 0.9; ///< of the stable time step
   OutputParameters output;
@@ -53,6 +71,11 @@ struct FootingParameters
   /// the footing, so that half of that element counts as covered (as in Itasca's FLAC).
   double element_size() const { return 0.5 * width / (elements_across + 0.5); }
   double elements_along(const double length) const { return std::max(1., std::round(length / element_size())); } // [m]
+  /// Where a deeper layer begins, at the next edge of elements; z upwards [m].
+  double layer_top(const std::size_t layer) const
+  {
+    return -std::round(layer_depths[layer] / element_size()) * element_size();
+  }
   double ramp_time() const { return ramp * loading_time; }                         ///< [s]
   double speed() const { return settlement / (loading_time - 0.5 * ramp_time()); } ///< after the ramp [m/s]
   double settlement_at(const double time) const                                    ///< [s] to [m]

@@ -99,6 +99,7 @@ bool TriaxialRun::load()
     now.residual = residual.add(now.energy.balance(), now.energy.wall_work);
     largest_overlap = std::max(largest_overlap, now.largest_overlap);
     history.append(table.row());
+    specimen->look_at_rotation(run.progress());
   };
   const auto look_at_step = [&] { stable_step.look(dt, specimen->model.stable_steps().combined(), run.progress()); };
   const auto draw = [&] { pictures.add(time(), pictures_of(specimen->model.grains(), specimen->model.body())); };
@@ -120,7 +121,6 @@ Summary TriaxialRun::summary() const
   figures.energy_residual = residual.relative();
   figures.undecided_contacts = specimen->n_undecided();
   figures.max_overlap_over_radius = largest_overlap;
-  const Vec3 edges = specimen->reference_edges();
   Summary summary;
   summary.set("model", std::string(parameters.model_name()));
   summary.set(figures);
@@ -129,7 +129,7 @@ Summary TriaxialRun::summary() const
     summary.set("packing_solid_fraction", start.solid_fraction);
     summary.set("packing_coordination_number", start.coordination_number);
   }
-  summary.set("cube_edges_m", std::vector<double>{edges[0], edges[1], edges[2]}, "m");
+  specimen->add_figures(summary);
   for (int d = 0; d < 3; ++d)
     summary.set("stress_" + std::to_string(d + 1) + "_Pa", now.stress[d], "Pa");
   summary.set("coupling_difference_m", now.coupling_difference, "m");

@@ -2,7 +2,6 @@
 
 #include "dem/core/error.h"
 #include "dem/motion/stable_step.h"
-#include "drivers/common/continuum_parameters.h"
 #include "drivers/common/coupling_parameters.h"
 #include "drivers/common/grain_parameters.h"
 #include "drivers/common/loading_parameters.h"
@@ -17,7 +16,7 @@ namespace bergamo::driver
 TriaxialParameters::TriaxialParameters()
 {
   simulation.time_step = 1.2e-7;
-  continuum.density = 1780.;
+  continuum.mohr_coulomb.density = 1780.;
 }
 
 void TriaxialParameters::declare(ParameterFile &file)
@@ -50,7 +49,7 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance",
            Range::between(0, 0.1));
 
-  declare_continuum(file, continuum);
+  continuum.declare(file);
   file.add("Continuum", "damping", continuum_damping, "mass-proportional [1/s]", Range::non_negative());
 
   declare_coupling(file, coupling);
@@ -82,7 +81,10 @@ void TriaxialParameters::validate() const
              " m; choose fewer Model/elements per edge or a larger Model/edge");
   }
   if (has_continuum())
+  {
     continuum.validate();
+    continuum.require_pressure(compression.pressure, "the cube has", "raise Packing/pressure");
+  }
   if (!has_grains())
     return;
   const double least_edge = 2. * distribution.largest_half_axis * std::sqrt(3.);

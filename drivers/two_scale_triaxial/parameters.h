@@ -5,9 +5,9 @@
 #include "dem/loading/strain_program.h"
 #include "dem/packing/distribution.h"
 #include "dem/simulation/simulation.h"
+#include "drivers/common/continuum_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
-#include "fe_dealii/material/mohr_coulomb.h"
 
 #include <cstdint>
 
@@ -43,7 +43,7 @@ struct TriaxialParameters
   std::uint64_t seed = 1;
   dem::CompressionParameters compression;
 
-  fe::MohrCoulombParameters continuum;
+  ContinuumParameters continuum;
   double continuum_damping = 200.; ///< mass-proportional [1/s]
 
   coupling::CouplingParameters coupling;

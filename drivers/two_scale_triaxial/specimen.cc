@@ -32,7 +32,7 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
   mesh.subdivisions = {n, n, n_layers};
 
   fe::ExplicitBodyParameters body;
-  body.material = fe::MohrCoulomb(parameters.continuum);
+  body.material = parameters.continuum.material();
   body.damping = parameters.continuum_damping;
   body.initial_stress = fe::uniform_pressure(parameters.compression.pressure);
   return std::make_unique<fe::ExplicitBody>(fe::make_box_body(mesh, body));
@@ -173,6 +173,19 @@ Vec3 Specimen::stress() const
   return stress;
 }
 
+void Specimen::look_at_rotation(Progress &progress)
+{
+  if (model.body())
+    rotation.look(*model.body(), progress);
+}
+
+void Specimen::add_figures(Summary &summary) const
+{
+  summary.set("cube_edges_m", std::vector<double>{edges[0], edges[1], edges[2]}, "m");
+  if (model.body())
+    summary.set("greatest_rotation_degrees", rotation.greatest(), "degrees");
+}
+
 void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, LoadingStart &start,
                    const TriaxialParameters &parameters)
 {
@@ -190,6 +203,7 @@ void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, Loa
     visit_body(visit, *specimen->model.body());
   if (specimen->body_steps)
     visit_steps(visit, *specimen->body_steps);
+  specimen->rotation.visit(visit);
 }
 
 } // namespace bergamo::driver

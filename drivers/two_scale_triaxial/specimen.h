@@ -1,6 +1,8 @@
 #pragma once
 
 #include "coupling/adapter/two_scale_model.h"
+#include "drivers/common/run/rotation_watch.h"
+#include "drivers/common/summary.h"
 #include "drivers/two_scale_triaxial/packing_stage.h"
 #include "drivers/two_scale_triaxial/specimen_sample.h"
 #include "fe_dealii/step_control.h"
@@ -37,10 +39,15 @@ public:
 
   std::int64_t n_grains() const { return model.grains() ? model.grains()->particles.size() : 0; }
   std::int64_t n_undecided() const { return model.grains() ? model.grains()->contacts.n_undecided() : 0; }
-  Vec3 reference_edges() const { return edges; } ///< [m]
+
+  /// Warns once where strains of the continuum are too small a description for its rotation.
+  void look_at_rotation(Progress &progress);
+
+  void add_figures(Summary &summary) const; ///< edges of the cube, and the greatest rotation of a continuum
 
   coupling::TwoScaleModel model;
   std::optional<fe::StepControl> body_steps; ///< watches that of the continuum
+  RotationWatch rotation;                    ///< of the continuum's elements
 
 private:
   struct Face

@@ -29,6 +29,7 @@ Surface boundary_surface(const dealii::DoFHandler<3, 3> &dof_handler, const unsi
       const auto normal =
           dealii::cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
       const bool outward = normal * (face->center() - cell->center()) > 0;
+      surface.elements.push_back(cell->active_cell_index());
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
           surface.nodes.push_back(dofs[3 * place[outward ? n * j + i : n * i + j]] / 3);
@@ -57,6 +58,7 @@ Surface membrane_surface(const dealii::DoFHandler<2, 3> &dof_handler)
     if (!cell->direction_flag())
       std::swap(node[1], node[2]);
     surface.nodes.insert(surface.nodes.end(), node.begin(), node.end());
+    surface.elements.push_back(cell->active_cell_index());
     constexpr int around[] = {0, 1, 3, 2, 0};
     for (int k = 0; k < 4; ++k)
     {

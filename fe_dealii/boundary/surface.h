@@ -20,6 +20,7 @@ struct Surface
 {
   int degree = 1; ///< 1 or 2
   std::vector<unsigned int> nodes;
+  std::vector<unsigned int> elements; ///< that the faces belong to
 
   int nodes_per_face() const { return (degree + 1) * (degree + 1); }
   std::size_t size() const { return nodes.size() / nodes_per_face(); }

@@ -98,6 +98,24 @@ double SurfaceLoad::reference_area() const
   return sum;
 }
 
+NodalArea SurfaceLoad::nodal_area(const std::size_t face, const int node) const
+{
+  NodalArea result;
+  for (const Point &point : points_)
+  {
+    const Vector a = area_vector(face, point, nullptr);
+    const double area = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double part = point.value[node] / area;
+    result.area += point.value[node] * area;
+    for (int i = 0; i < 3; ++i)
+    {
+      result.normals[i] += part * a[i] * a[i];
+      result.normals[3 + i] += part * a[i] * a[(i + 1) % 3];
+    }
+  }
+  return result;
+}
+
 double SurfaceLoad::volume(const std::span<const double> displacement) const
 {
   double sum = 0;

@@ -9,6 +9,13 @@
 namespace bergamo::fe
 {
 
+/// A node's part of a face in the reference configuration.
+struct NodalArea
+{
+  double area = 0;                 ///< ∫ N dA [m²]
+  std::array<double, 6> normals{}; ///< ∫ N n⊗n dA, xx yy zz xy yz zx [m²]
+};
+
 /// Forces on the nodes of a surface from what acts on its area. Displacements and forces are arrays of the whole body,
 /// 3*node + component.
 class SurfaceLoad
@@ -24,6 +31,9 @@ public:
   void add_pressure(double pressure, std::span<const double> displacement, std::span<double> force) const;
 
   double reference_area() const; ///< [m²]
+
+  /// @param node 0 .. nodes_per_face() − 1 of the face
+  NodalArea nodal_area(std::size_t face, int node) const;
 
   /// Volume inside a closed surface, that of the cone from the origin to an open one [m³]. Of a closed surface the
   /// forces of a unit pressure are minus its derivative by the displacement, to rounding.

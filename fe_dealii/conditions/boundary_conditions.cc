@@ -1,6 +1,7 @@
 #include "fe_dealii/conditions/boundary_conditions.h"
 
 #include "dem/core/error.h"
+#include "fe_dealii/conditions/quiet_boundary.h"
 
 #include <deal.II/base/types.h>
 
@@ -17,13 +18,19 @@ namespace
 constexpr std::pair<const char *, ConditionKind> kinds[] = {{"displacement", ConditionKind::displacement},
                                                             {"velocity", ConditionKind::velocity},
                                                             {"traction", ConditionKind::traction},
-                                                            {"pressure", ConditionKind::pressure}};
+                                                            {"pressure", ConditionKind::pressure},
+                                                            {"quiet", ConditionKind::quiet}};
+
+bool has_component(const ConditionKind kind)
+{
+  return kind != ConditionKind::pressure && kind != ConditionKind::quiet;
+}
 
 [[noreturn]] void reject(const std::string &text, const std::string &reason)
 {
   throw ConfigError("boundary condition '" + text + "': " + reason +
-                    "; write BOUNDARY displacement|velocity|traction x|y|z FUNCTION or BOUNDARY pressure FUNCTION, "
-                    "such as 5 displacement z -0.01*t");
+                    "; write BOUNDARY displacement|velocity|traction x|y|z FUNCTION, BOUNDARY pressure FUNCTION or "
+                    "BOUNDARY quiet, such as 5 displacement z -0.01*t");
 }
 
 /// "5 displacement z -0.01*t": as parse_condition() reads it.
@@ -33,9 +40,9 @@ std::string text_of(const BoundaryCondition &condition)
   for (const auto &[name, value] : kinds)
     if (condition.kind == value)
       text += std::string(" ") + name;
-  if (condition.kind != ConditionKind::pressure)
+  if (has_component(condition.kind))
     text += std::string(" ") + "xyz"[condition.component];
-  return text + " " + condition.value.text();
+  return condition.kind == ConditionKind::quiet ? text : text + " " + condition.value.text();
 }
 
 bool is_motion(const ConditionKind kind)
@@ -67,7 +74,7 @@ BoundaryCondition parse_condition(const std::string &text)
     }
   if (!known)
     reject(text, "'" + kind + "' is no kind of condition");
-  if (condition.kind != ConditionKind::pressure)
+  if (has_component(condition.kind))
   {
     std::string component;
     words >> component;
@@ -78,6 +85,12 @@ BoundaryCondition parse_condition(const std::string &text)
   }
   std::string function;
   std::getline(words >> std::ws, function);
+  if (condition.kind == ConditionKind::quiet)
+  {
+    if (!function.empty())
+      reject(text, "nothing follows the word quiet, but '" + function + "' does");
+    return condition;
+  }
   if (function.empty())
     reject(text, "the function of the time is missing");
   condition.value = TimeFunction(function);
@@ -98,10 +111,38 @@ BoundaryConditions::BoundaryConditions(ExplicitBody &body, std::vector<BoundaryC
       check_motion(c);
       part.constraint = body.prescribe_velocity(c.boundary_id, c.component);
     }
-    else
+    else if (c.kind != ConditionKind::quiet)
       part.load.emplace(boundary_surface(body.dof_handler(), c.boundary_id), body.node_position());
     parts.push_back(std::move(part));
   }
+  std::vector<Dashpot> dashpots;
+  for (const Part &part : parts)
+    if (part.condition.kind == ConditionKind::quiet)
+    {
+      check_quiet(part.condition);
+      const std::vector<Dashpot> of_part = quiet_boundary(body, part.condition.boundary_id);
+      dashpots.insert(dashpots.end(), of_part.begin(), of_part.end());
+    }
+  if (!dashpots.empty())
+    body.add_dashpots(dashpots);
+}
+
+void BoundaryConditions::check_quiet(const BoundaryCondition &condition) const
+{
+  const std::string text = text_of(condition);
+  for (const Part &other : parts)
+    if (&other.condition != &condition && other.condition.kind == ConditionKind::quiet &&
+        other.condition.boundary_id == condition.boundary_id)
+      throw ConfigError("boundary condition '" + text + "': the boundary is made quiet twice; leave one of them out");
+  const std::vector<unsigned int> nodes = body.boundary_nodes(condition.boundary_id);
+  if (std::all_of(nodes.begin(), nodes.end(),
+                  [&](const unsigned int node)
+                  {
+                    const std::size_t dof = 3 * std::size_t(node);
+                    return body.constraint_of(dof) && body.constraint_of(dof + 1) && body.constraint_of(dof + 2);
+                  }))
+    throw ConfigError("boundary condition '" + text +
+                      "': other conditions hold all nodes of the boundary along all axes; leave one of them out");
 }
 
 void BoundaryConditions::check_motion(const BoundaryCondition &condition) const
@@ -152,6 +193,8 @@ void BoundaryConditions::apply(const double time, const double dt)
     }
     case ConditionKind::pressure:
       part.load->add_pressure(value(time), displacement, force);
+      break;
+    case ConditionKind::quiet:
       break;
     }
   }

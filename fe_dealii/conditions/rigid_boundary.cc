@@ -121,12 +121,13 @@ void RigidBoundary::gather_forces()
   force_ = moment_ = {};
   for (const unsigned int node : nodes)
   {
+    const Vector drag = body.drag(node);
     Vector force, from_centre;
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::size_t dof = 3 * std::size_t(node) + i;
       force[i] = body.external_force()[dof] + body.weight(dof) - body.internal_force()[dof] -
-                 body.damping() * body.mass()[dof] * body.velocity()[dof];
+                 body.damping() * body.mass()[dof] * body.velocity()[dof] - drag[i];
       from_centre[i] = body.node_position()[node][i] + body.displacement()[dof] - now.centre[i];
     }
     const Vector turn = cross(from_centre, force);

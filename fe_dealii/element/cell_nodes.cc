@@ -11,15 +11,17 @@ namespace bergamo::fe
 {
 
 template <int dim>
-std::vector<unsigned int> cell_nodes(const dealii::DoFHandler<dim, 3> &dof_handler)
+std::vector<unsigned int> cell_nodes(const dealii::DoFHandler<dim, 3> &dof_handler,
+                                     const std::optional<unsigned int> material_id)
 {
   const auto &element = dof_handler.get_fe();
   const unsigned int n_nodes = element.dofs_per_cell / 3;
   std::vector<unsigned int> nodes;
-  nodes.reserve(std::size_t(n_nodes) * dof_handler.get_triangulation().n_active_cells());
   std::vector<dealii::types::global_dof_index> dofs(element.dofs_per_cell);
   for (const auto &cell : dof_handler.active_cell_iterators())
   {
+    if (material_id && cell->material_id() != *material_id)
+      continue;
     cell->get_dof_indices(dofs);
     for (unsigned int node = 0; node < n_nodes; ++node)
     {
@@ -46,8 +48,8 @@ std::vector<std::array<double, 3>> node_positions(const dealii::DoFHandler<dim, 
   return position;
 }
 
-template std::vector<unsigned int> cell_nodes<2>(const dealii::DoFHandler<2, 3> &);
-template std::vector<unsigned int> cell_nodes<3>(const dealii::DoFHandler<3, 3> &);
+template std::vector<unsigned int> cell_nodes<2>(const dealii::DoFHandler<2, 3> &, std::optional<unsigned int>);
+template std::vector<unsigned int> cell_nodes<3>(const dealii::DoFHandler<3, 3> &, std::optional<unsigned int>);
 template std::vector<std::array<double, 3>> node_positions<2>(const dealii::DoFHandler<2, 3> &);
 template std::vector<std::array<double, 3>> node_positions<3>(const dealii::DoFHandler<3, 3> &);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace dealii
@@ -14,17 +15,19 @@ class DoFHandler;
 namespace bergamo::fe
 {
 
-/// Nodes of all active cells in their order, in the order of the cell's shape functions.
+/// Nodes of the active cells in their order, in the order of the cell's shape functions.
+/// @param material_id of the cells to take; none: all
 /// @throws RunError where deal.II numbers in another way
 template <int dim>
-std::vector<unsigned int> cell_nodes(const dealii::DoFHandler<dim, 3> &dof_handler);
+std::vector<unsigned int> cell_nodes(const dealii::DoFHandler<dim, 3> &dof_handler,
+                                     std::optional<unsigned int> material_id = {});
 
 /// Places of all nodes [m].
 template <int dim>
 std::vector<std::array<double, 3>> node_positions(const dealii::DoFHandler<dim, 3> &dof_handler);
 
-extern template std::vector<unsigned int> cell_nodes<2>(const dealii::DoFHandler<2, 3> &);
-extern template std::vector<unsigned int> cell_nodes<3>(const dealii::DoFHandler<3, 3> &);
+extern template std::vector<unsigned int> cell_nodes<2>(const dealii::DoFHandler<2, 3> &, std::optional<unsigned int>);
+extern template std::vector<unsigned int> cell_nodes<3>(const dealii::DoFHandler<3, 3> &, std::optional<unsigned int>);
 extern template std::vector<std::array<double, 3>> node_positions<2>(const dealii::DoFHandler<2, 3> &);
 extern template std::vector<std::array<double, 3>> node_positions<3>(const dealii::DoFHandler<3, 3> &);
 

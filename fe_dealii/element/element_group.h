@@ -20,6 +20,7 @@ struct ElementState
   double yield_function = 0; ///< of the mean stress [Pa]; 0 without a yield surface
   double plastic_strain = 0; ///< mean of the accumulated equivalent strain [-]
   double energy_density = 0; ///< elastic_energy() over the reference volume, whatever the share [J/m³]
+  double void_ratio = 0;     ///< mean [-]; 0 where the law has none
 };
 
 /// Elements of one shape and one law: strains to stresses to nodal forces. Calls are virtual by blocks of elements.
@@ -46,7 +47,7 @@ public:
   /// Whether an element moves as a rigid body: it has no forces then, its stress and energy stay, and it sets no stable
   /// step. Elements of small strain would resist a rotation.
   bool is_rigid(const std::size_t element) const { return !rigid.empty() && rigid[element] != 0; }
-  void make_rigid(const std::size_t element)
+  virtual void make_rigid(const std::size_t element)
   {
     rigid.resize(size(), 0);
     rigid[element] = 1;
@@ -56,7 +57,10 @@ public:
   /// Nodal forces of the elements as last computed, in the order of nodes(), three each [N].
   std::span<const double> forces() const { return force_of_dof; }
 
-  /// Computes the forces of the elements from begin, a multiple of eight, to end. Blocks may run at the same time.
+  /// Places in the order in which forces are computed; more than there are elements where some stay empty.
+  virtual std::size_t n_places() const { return size(); }
+  /// Computes the forces of the elements at the places from begin, a multiple of eight, to end. Blocks may run at the
+  /// same time.
   /// @param before displacement at the last call
   /// @return the first element that cannot go on, see failure()
   virtual std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,

@@ -114,35 +114,64 @@ struct KeptShare
   Strain slope{}; // by the strain increment
 };
 
-KeptShare kept_share_of(const MohrCoulomb &law, const Stress &stress, const Strain &increment, const double stiffness)
+/// A stress xx yy zz xy yz zx and its derivative by the strain increment [Pa].
+struct Varying
 {
-  const StressUpdate update = law.update(stress, increment);
-  if (update.sector == Sector::elastic)
-    return {};
-  const Moduli moduli = law.tangent(stress, increment);
-  const Moduli elastic = isotropic_moduli(law.lame_modulus(), law.shear_modulus());
-  double trial[6], deviator[6];
+  double value[6];
+  Moduli slope;
+
+  Varying(const Stress &stress, const Moduli &slope) : slope(slope) { std::copy(stress.begin(), stress.end(), value); }
+};
+
+/// @param stiffness factor of the law's elastic moduli
+template <class Law>
+Varying trial_of(const Law &law, const Stress &before, const Strain &increment, const double stiffness)
+{
+  Varying trial(before, isotropic_moduli(law.lame_modulus(), law.shear_modulus()));
   for (int i = 0; i < 6; ++i)
-  {
-    trial[i] = stress[i];
     for (int j = 0; j < 6; ++j)
-      trial[i] += stiffness * elastic[i][j] * increment[j];
-    deviator[i] = update.stress[i];
-  }
-  take_off_mean(trial);
-  take_off_mean(deviator);
-  KeptShare share{kept_share(deviator, trial), {}};
+    {
+      trial.slope[i][j] *= stiffness;
+      trial.value[i] += trial.slope[i][j] * increment[j];
+    }
+  return trial;
+}
+
+/// Of deviators the slopes may have a mean, which does nothing.
+KeptShare kept_share_of(const Varying &kept, const Varying &of)
+{
+  KeptShare share{kept_share(kept.value, of.value), {}};
   if (share.value <= 0 || share.value >= 1)
     return share;
   double square = 0;
   for (int i = 0; i < 6; ++i)
-    square += (i < 3 ? 1 : 2) * trial[i] * trial[i];
+    square += (i < 3 ? 1 : 2) * of.value[i] * of.value[i];
   for (int j = 0; j < 6; ++j)
-    for (int i = 0; i < 6; ++i) // both are deviators: a change of the mean does nothing
+    for (int i = 0; i < 6; ++i)
       share.slope[j] +=
           (i < 3 ? 1 : 2) / square *
-          (moduli[i][j] * trial[i] + stiffness * elastic[i][j] * (deviator[i] - 2 * share.value * trial[i]));
+          (kept.slope[i][j] * of.value[i] + of.slope[i][j] * (kept.value[i] - 2 * share.value * of.value[i]));
   return share;
+}
+
+/// As hourglass_step() has it. @param moduli derivative of the stress after the increment [Pa]
+KeptShare kept_share_of(const MohrCoulomb &law, const Stress &before, const Strain &increment, const double stiffness,
+                        const Moduli &moduli)
+{
+  const StressUpdate update = law.update(before, increment);
+  if (update.sector == Sector::elastic)
+    return {};
+  Varying kept(update.stress, moduli), trial = trial_of(law, before, increment, stiffness);
+  take_off_mean(kept.value);
+  take_off_mean(trial.value);
+  return kept_share_of(kept, trial);
+}
+
+KeptShare kept_share_of(const HypoplasticSand &law, const SandState &before, const Strain &increment,
+                        const double stiffness, const Moduli &moduli)
+{
+  return kept_share_of({update(law, before, increment).state.stress, moduli},
+                       trial_of(law, before.stress, increment, stiffness));
 }
 
 } // namespace
@@ -405,13 +434,16 @@ void SmallStrainBending<Law>::tangent(const std::size_t element, const double *d
   Strain strain;
   std::copy(std::begin(components), std::end(components), strain.begin());
   const double factor = this->stiffness_factor(element);
+  const Moduli moduli = this->tangent_moduli(element, 0, strain);
+  const std::size_t pack = element / points_per_pack, lane = element % points_per_pack;
   KeptShare kept;
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
-    kept = kept_share_of(this->law(), this->stress(element, 0), strain, factor);
-  stiffness_matrix(geometry, this->tangent_moduli(element, 0, strain), kept.value * factor, matrix);
+    kept = kept_share_of(this->law(), this->stress(element, 0), strain, factor, moduli);
+  else if constexpr (std::is_same_v<Law, HypoplasticSand>)
+    kept = kept_share_of(this->law(), sand_state(this->history(pack), lane), strain, factor, moduli);
+  stiffness_matrix(geometry, moduli, kept.value * factor, matrix);
 
   // What the strain does through the share that flow leaves: forces of the modes at their trial times its slope.
-  const std::size_t pack = element / points_per_pack, lane = element % points_per_pack;
   double trial[n_modes][3], of_trial[n_modes][3], force[n_dofs], slope[n_dofs], on_slope[6];
   for (int mode = 0; mode < n_modes; ++mode)
     for (int i = 0; i < 3; ++i)

@@ -46,6 +46,8 @@ ElementState SmallStrainElements<Law>::state_of(const std::size_t element, const
     for (int i = 0; i < 6; ++i)
       state.stress[i] += fraction * at_point[i];
     state.plastic_strain += fraction * history_of(element, point).plastic_strain[lane_of(element, point)];
+    if constexpr (std::is_same_v<Law, HypoplasticSand>)
+      state.void_ratio += fraction * history_of(element, point).void_ratio[lane_of(element, point)];
     state.energy_density += fraction * stored_energy(element, point);
   }
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
@@ -127,7 +129,7 @@ Moduli SmallStrainElements<Law>::tangent_moduli(const std::size_t element, const
                                                 const Strain &strain_increment) const
 {
   if constexpr (std::is_same_v<Law, HypoplasticSand>)
-    return law_.tangent(sand_state(history_of(element, point), lane_of(element, point)), strain_increment);
+    return consistent_tangent(law_, sand_state(history_of(element, point), lane_of(element, point)), strain_increment);
   else
     return law_.tangent(stress(element, point), strain_increment);
 }

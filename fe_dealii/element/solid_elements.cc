@@ -26,18 +26,27 @@ namespace bergamo::fe
 namespace
 {
 
+/// Of a body: all, or those of one material id.
+struct Cells
+{
+  const dealii::DoFHandler<3> &dof_handler;
+  std::optional<unsigned int> material_id;
+};
+
 /// @param take take(values): called with the values of each cell, in the order of the cells
 template <class Take>
-void for_each_cell(const dealii::DoFHandler<3> &dof_handler, const unsigned int degree, const Take &take)
+void for_each_cell(const Cells &cells, const unsigned int degree, const Take &take)
 {
   const dealii::FE_Q<3> scalar(degree);
   const dealii::QGauss<3> quadrature(degree + 1);
   dealii::FEValues<3> values(scalar, quadrature,
                              dealii::update_values | dealii::update_gradients | dealii::update_JxW_values |
                                  dealii::update_quadrature_points);
-  for (const auto &cell : dof_handler.get_triangulation().active_cell_iterators())
+  for (const auto &cell : cells.dof_handler.get_triangulation().active_cell_iterators())
   {
-    values.reinit(cell);
+    values.reinit(cell); // of all: deal.II takes over what a cell has in common with the one before, rounding included
+    if (cells.material_id && cell->material_id() != *cells.material_id)
+      continue;
     for (unsigned int point = 0; point < values.n_quadrature_points; ++point)
       if (!(values.JxW(point) > 0))
       {
@@ -121,12 +130,12 @@ void add_start(const dealii::FEValues<3> &values, const Law &law, const InitialS
 }
 
 template <class Law>
-std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+std::unique_ptr<ElementGroup> small_strain_trilinear(const Cells &cells, const Law &law,
                                                      const InitialStress &initial_stress)
 {
   std::vector<typename KeptAtPoints<Law>::History> start;
   std::vector<hexahedron::Geometry> geometries;
-  for_each_cell(dof_handler, 1,
+  for_each_cell(cells, 1,
                 [&](const dealii::FEValues<3> &values)
                 {
                   hexahedron::Geometry geometry;
@@ -142,8 +151,8 @@ std::unique_ptr<ElementGroup> small_strain_trilinear(const dealii::DoFHandler<3>
                   geometries.push_back(geometry);
                   add_start(values, law, initial_stress, start);
                 });
-  return std::make_unique<SmallStrainHexahedra<Law>>(law, cell_nodes(dof_handler), std::move(geometries),
-                                                     std::move(start));
+  return std::make_unique<SmallStrainHexahedra<Law>>(law, cell_nodes(cells.dof_handler, cells.material_id),
+                                                     std::move(geometries), std::move(start));
 }
 
 bending::Corners corners_of(const dealii::FEValues<3> &values)
@@ -156,18 +165,19 @@ bending::Corners corners_of(const dealii::FEValues<3> &values)
 }
 
 template <class Law>
-std::unique_ptr<ElementGroup> small_strain_bending(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+std::unique_ptr<ElementGroup> small_strain_bending(const Cells &cells, const Law &law,
                                                    const InitialStress &initial_stress)
 {
   std::vector<typename KeptAtPoints<Law>::History> start;
   std::vector<bending::Corners> corners;
-  for_each_cell(dof_handler, 1,
+  for_each_cell(cells, 1,
                 [&](const dealii::FEValues<3> &values)
                 {
                   corners.push_back(corners_of(values));
                   add_start(values, law, initial_stress, start);
                 });
-  return std::make_unique<SmallStrainBending<Law>>(law, cell_nodes(dof_handler), std::move(corners), start);
+  return std::make_unique<SmallStrainBending<Law>>(law, cell_nodes(cells.dof_handler, cells.material_id),
+                                                   std::move(corners), start);
 }
 
 /// Geometries and lumped masses of elements that are integrated in full.
@@ -184,9 +194,9 @@ struct Solids
   /// Simpson's rule and the row sum.
   /// @param take take(values): called with the values of each cell
   template <class Take>
-  Solids(const dealii::DoFHandler<3> &dof_handler, const Take &take)
+  Solids(const Cells &cells, const Take &take)
   {
-    for_each_cell(dof_handler, n_nodes == 8 ? 1 : 2,
+    for_each_cell(cells, n_nodes == 8 ? 1 : 2,
                   [&](const dealii::FEValues<3> &values)
                   {
                     add(values);
@@ -226,47 +236,48 @@ private:
 };
 
 template <class Law>
-std::unique_ptr<ElementGroup> small_strain_quadratic(const dealii::DoFHandler<3> &dof_handler, const Law &law,
+std::unique_ptr<ElementGroup> small_strain_quadratic(const Cells &cells, const Law &law,
                                                      const InitialStress &initial_stress)
 {
   std::vector<typename KeptAtPoints<Law>::History> start;
-  Solids<27> solids(dof_handler,
-                    [&](const dealii::FEValues<3> &values) { add_start(values, law, initial_stress, start); });
-  return std::make_unique<SmallStrainQuadratic<Law>>(law, cell_nodes(dof_handler), std::move(solids.geometry),
-                                                     std::move(solids.mass_shares), std::move(start));
+  Solids<27> solids(cells, [&](const dealii::FEValues<3> &values) { add_start(values, law, initial_stress, start); });
+  return std::make_unique<SmallStrainQuadratic<Law>>(law, cell_nodes(cells.dof_handler, cells.material_id),
+                                                     std::move(solids.geometry), std::move(solids.mass_shares),
+                                                     std::move(start));
 }
 
 template <class Law, int n_nodes>
-std::unique_ptr<ElementGroup> finite_strain(const dealii::DoFHandler<3> &dof_handler, const Law &law)
+std::unique_ptr<ElementGroup> finite_strain(const Cells &cells, const Law &law)
 {
-  Solids<n_nodes> solids(dof_handler, [](const dealii::FEValues<3> &) {});
-  return std::make_unique<FiniteStrainSolid<Law, n_nodes>>(law, cell_nodes(dof_handler), std::move(solids.geometry),
-                                                           std::move(solids.mass_shares));
+  Solids<n_nodes> solids(cells, [](const dealii::FEValues<3> &) {});
+  return std::make_unique<FiniteStrainSolid<Law, n_nodes>>(law, cell_nodes(cells.dof_handler, cells.material_id),
+                                                           std::move(solids.geometry), std::move(solids.mass_shares));
 }
 
 template <class Law>
-std::unique_ptr<ElementGroup> finite_strain_bending(const dealii::DoFHandler<3> &dof_handler, const Law &law)
+std::unique_ptr<ElementGroup> finite_strain_bending(const Cells &cells, const Law &law)
 {
   std::vector<bending::Corners> corners;
-  for_each_cell(dof_handler, 1, [&](const dealii::FEValues<3> &values) { corners.push_back(corners_of(values)); });
-  return std::make_unique<FiniteStrainBending<Law>>(law, cell_nodes(dof_handler), std::move(corners));
+  for_each_cell(cells, 1, [&](const dealii::FEValues<3> &values) { corners.push_back(corners_of(values)); });
+  return std::make_unique<FiniteStrainBending<Law>>(law, cell_nodes(cells.dof_handler, cells.material_id),
+                                                    std::move(corners));
 }
 
 struct Maker
 {
-  const dealii::DoFHandler<3> &dof_handler;
+  Cells cells;
   const InitialStress &initial_stress;
   Hourglass hourglass;
 
-  unsigned int degree() const { return dof_handler.get_fe().degree; }
+  unsigned int degree() const { return cells.dof_handler.get_fe().degree; }
 
   template <class Law>
   std::unique_ptr<ElementGroup> of_small_strain(const Law &law) const
   {
     if (degree() == 2)
-      return small_strain_quadratic(dof_handler, law, initial_stress);
-    return hourglass == Hourglass::bending ? small_strain_bending(dof_handler, law, initial_stress)
-                                           : small_strain_trilinear(dof_handler, law, initial_stress);
+      return small_strain_quadratic(cells, law, initial_stress);
+    return hourglass == Hourglass::bending ? small_strain_bending(cells, law, initial_stress)
+                                           : small_strain_trilinear(cells, law, initial_stress);
   }
 
   template <class Law>
@@ -276,9 +287,8 @@ struct Maker
       throw ConfigError("continuum: initial_stress is given for a law of large strain, which has no stress at rest; "
                         "leave it out");
     if (degree() == 2)
-      return finite_strain<Law, 27>(dof_handler, law);
-    return hourglass == Hourglass::bending ? finite_strain_bending(dof_handler, law)
-                                           : finite_strain<Law, 8>(dof_handler, law);
+      return finite_strain<Law, 27>(cells, law);
+    return hourglass == Hourglass::bending ? finite_strain_bending(cells, law) : finite_strain<Law, 8>(cells, law);
   }
 
   std::unique_ptr<ElementGroup> operator()(const LinearElastic &law) const { return of_small_strain(law); }
@@ -292,9 +302,10 @@ struct Maker
 } // namespace
 
 std::unique_ptr<ElementGroup> make_solid_elements(const dealii::DoFHandler<3, 3> &dof_handler, const Material &material,
-                                                  const InitialStress &initial_stress, const Hourglass hourglass)
+                                                  const InitialStress &initial_stress, const Hourglass hourglass,
+                                                  const std::optional<unsigned int> material_id)
 {
-  return std::visit(Maker{dof_handler, initial_stress, hourglass}, material);
+  return std::visit(Maker{{dof_handler, material_id}, initial_stress, hourglass}, material);
 }
 
 } // namespace bergamo::fe

@@ -126,7 +126,8 @@ private:
     double internal = 0, applied = 0;
     for (std::size_t dof = 0; dof < n_dofs; ++dof)
     {
-      const double force = body.external_force()[dof] + body.weight(dof) - (1 - share) * unbalanced[dof];
+      const double force =
+          body.external_force()[dof] + body.weight(dof) + body.held_force(dof) - (1 - share) * unbalanced[dof];
       internal += body.internal_force()[dof] * body.internal_force()[dof];
       applied += force * force;
       residual[dof] = body.constraint_of(dof) ? 0 : force - body.internal_force()[dof];

@@ -74,9 +74,6 @@ public:
   }
   /// @}
 
-  /// Derivative by the strain increment of the stress after it, at its start: for small increments.
-  Moduli tangent(const SandState &start, const Strain &increment) const { return response(start).tangent(increment); }
-
   double density() const { return p_.density; } ///< at the start [kg/m³]
   const HypoplasticParameters &parameters() const { return p_; }
 

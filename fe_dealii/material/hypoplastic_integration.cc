@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace bergamo::fe
 {
@@ -59,10 +60,22 @@ Substep advance(const StrainPath &path, const double at, const double step, cons
   return result;
 }
 
-} // namespace
+/// The stress over substeps that are given, as shares of the increment.
+Stress carried(const StrainPath &path, Stress stress, const std::vector<double> &substeps)
+{
+  double done = 0;
+  for (const double step : substeps)
+  {
+    stress = advance(path, done, step, stress, path.slope(done, stress)).stress;
+    cut_tension(stress);
+    done += step;
+  }
+  return stress;
+}
 
+/// @param taken gets the substeps that are accepted, if any is given
 SandUpdate update(const HypoplasticSand &sand, const SandState &start, const Strain &increment,
-                  const SubstepControl &control)
+                  const SubstepControl &control, std::vector<double> *const taken)
 {
   SandUpdate result{start, SandUpdateStatus::done, 0, 0};
   const StrainPath path{sand, increment, start.void_ratio};
@@ -88,6 +101,8 @@ SandUpdate update(const HypoplasticSand &sand, const SandState &start, const Str
     if (is_good)
     {
       ++result.n_substeps;
+      if (taken)
+        taken->push_back(size);
       done = is_last ? 1 : done + size;
       stress = next.stress;
       slope = cut_tension(stress) && done < 1 ? path.slope(done, stress) : next.end_rate;
@@ -102,6 +117,38 @@ SandUpdate update(const HypoplasticSand &sand, const SandState &start, const Str
   }
   result.state = {stress, end_void_ratio};
   return result;
+}
+
+} // namespace
+
+SandUpdate update(const HypoplasticSand &sand, const SandState &start, const Strain &increment,
+                  const SubstepControl &control)
+{
+  return update(sand, start, increment, control, nullptr);
+}
+
+Moduli consistent_tangent(const HypoplasticSand &sand, const SandState &start, const Strain &increment,
+                          const SubstepControl &control)
+{
+  std::vector<double> substeps;
+  const double size = strain_norm(increment);
+  if (size == 0 || update(sand, start, increment, control, &substeps).status != SandUpdateStatus::done)
+    return sand.response(start).tangent(increment);
+  // Central differences: their square of 1e-5 and the rounding of stresses over 1e-5 of an increment are both small
+  // beside the error of the substeps.
+  const double h = 1e-5 * size;
+  Moduli moduli;
+  for (int j = 0; j < 6; ++j)
+  {
+    Strain above = increment, below = increment;
+    above[j] += h;
+    below[j] -= h;
+    const Stress up = carried({sand, above, start.void_ratio}, start.stress, substeps);
+    const Stress down = carried({sand, below, start.void_ratio}, start.stress, substeps);
+    for (int i = 0; i < 6; ++i)
+      moduli[i][j] = (up[i] - down[i]) / (2 * h);
+  }
+  return moduli;
 }
 
 std::string explain(const SandUpdateStatus status, const SandState &state)

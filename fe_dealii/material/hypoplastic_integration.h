@@ -37,6 +37,14 @@ struct SandUpdate
 SandUpdate update(const HypoplasticSand &sand, const SandState &start, const Strain &increment,
                   const SubstepControl &control = {});
 
+/// Derivative of the stress after update() by the increment: that of the substeps which update() takes, by differences
+/// of the substeps' own increments (Fellin and Ostermann, Int. J. Numer. Anal. Meth. Geomech. 26 (2002) 1213-1233). It
+/// is the one by which Newton's method converges for increments of any size; for small ones it is
+/// HypoplasticResponse::tangent() at the start. Where the increment is zero there is no derivative, and this is the
+/// linear part of the response; where update() fails, the tangent at the start. Allocates.
+Moduli consistent_tangent(const HypoplasticSand &sand, const SandState &start, const Strain &increment,
+                          const SubstepControl &control = {});
+
 /// What a failed update means and what helps: the rest of a sentence "element E has". @param state before it
 std::string explain(SandUpdateStatus status, const SandState &state);
 

@@ -4,8 +4,8 @@ namespace bergamo::fe
 {
 
 /// Parameters of a sand in hypoplasticity. The first eight are von Wolffersdorff's (Mech. Cohes.-Frict. Mater. 1 (1996)
-/// 251-271); the defaults are those of a quartz sand about as his from Hochstetten, and not taken from his table. Herle
-/// and Gudehus (ibid. 4 (1999) 461-486) say how to find them, and list sands.
+/// 251-271); the defaults are those of Hochstetten sand as they are quoted from Niemunis and Herle (ibid. 2 (1997)
+/// 279-299). Herle and Gudehus (ibid. 4 (1999) 461-486) say how to find them, and list sands.
 struct HypoplasticParameters
 {
   double critical_friction_angle = 33; ///< φ_c [degrees], in (0, 90)

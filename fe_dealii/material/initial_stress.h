@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <vector>
 
 namespace bergamo::fe
 {
@@ -14,14 +15,22 @@ using InitialStress = std::function<Stress(const std::array<double, 3> &)>;
 /// −p I everywhere. @param pressure p [Pa]
 InitialStress uniform_pressure(double pressure);
 
-/// Ground at rest under its own weight, z upwards: σ_zz = −(surcharge + unit_weight depth), the others K0 times that,
-/// no shear. Above the surface only the surcharge.
+/// Ground below the uppermost layer.
+struct DeeperLayer
+{
+  double top = 0;         ///< z where it begins [m]
+  double unit_weight = 0; ///< ρ g, >= 0 [N/m³]
+};
+
+/// Ground at rest under its own weight, z upwards: σ_zz = −(surcharge + ∫ unit weight dz), the others K0 times that, no
+/// shear. Above the surface only the surcharge.
 struct GeostaticStress
 {
   double surface_height = 0;           ///< z of the surface [m]
   double unit_weight = 0;              ///< ρ g, >= 0 [N/m³]
   double earth_pressure_at_rest = 0.5; ///< K0, >= 0 [-]
   double surcharge = 0;                ///< on the surface, >= 0 [Pa]
+  std::vector<DeeperLayer> deeper{};   ///< layers below the first, each below the one before
 
   /// Throws ConfigError.
   void validate() const;

@@ -29,4 +29,10 @@ inline double p_wave_speed(const Material &material)
                     material);
 }
 
+/// Speed of shear waves, sqrt(G/ρ) [m/s], as that above.
+inline double s_wave_speed(const Material &material)
+{
+  return std::visit([](const auto &law) { return std::sqrt(law.shear_modulus() / law.density()); }, material);
+}
+
 } // namespace bergamo::fe

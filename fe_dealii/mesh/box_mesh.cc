@@ -70,6 +70,8 @@ void make_box(const BoxMeshParameters &parameters, dealii::Triangulation<3, 3> &
   dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, edges, dealii::Point<3>(min[0], min[1], min[2]),
                                                     dealii::Point<3>(max[0], max[1], max[2]),
                                                     /*colorize=*/true);
+  for (const auto &cell : triangulation.active_cell_iterators())
+    cell->set_material_id(0); // deal.II colours octants, too
 }
 
 } // namespace bergamo::fe

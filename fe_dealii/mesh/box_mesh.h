@@ -23,7 +23,8 @@ struct BoxMeshParameters
   void validate() const;
 };
 
-/// Fills the empty `triangulation` with the box. Boundary ids 0..5 are the faces x−, x+, y−, y+, z−, z+.
+/// Fills the empty `triangulation` with the box. Boundary ids 0..5 are the faces x−, x+, y−, y+, z−, z+; all
+/// cells have the material id 0.
 /// Throws ConfigError for bad parameters or a triangulation that is not empty.
 void make_box(const BoxMeshParameters &parameters, dealii::Triangulation<3, 3> &triangulation);
 

@@ -17,6 +17,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verification"))
+import fe_hypoplastic_reference as sand
+
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 TWO_SCALE = Path(sys.argv.pop(1)).resolve()
 DRIVERS = Path(__file__).resolve().parents[2] / "drivers"
@@ -182,12 +185,13 @@ class Results(Case):
             line = line.split("#")[0].strip()
             if line.startswith("set "):
                 name, value = line[4:].split("=")
-                values[name.strip()] = float(value)
+                values[name.strip()] = value.strip()
         expected = {"Young's modulus": 71e6, "Poisson's ratio": POISSON, "friction angle": 26.5, "dilation angle": 4.25,
                     "cohesion": COHESION, "density": 0.67 * 2650}
+        self.assertEqual(values["law"], "Mohr-Coulomb")
         for name, value in expected.items():
-            self.assertAlmostEqual(values[name], value, delta=1e-7 * value, msg=name)
-        self.assertEqual(values["Young's modulus"], fit["continuum"]["young_modulus_Pa"])  # to the last bit
+            self.assertAlmostEqual(float(values[name]), value, delta=1e-7 * value, msg=name)
+        self.assertEqual(float(values["Young's modulus"]), fit["continuum"]["young_modulus_Pa"])  # to the last bit
         self.assertRegex(used, r"set edge += 0\.005\b")  # from the first file
 
     def test_pictures(self):
@@ -220,6 +224,74 @@ class Results(Case):
         earlier = {path.name for path in (self.out / "previous_run").iterdir()}
         self.assertEqual(earlier, {"parameters.prm", "summary.json", "fit_mohr_coulomb.json", "continuum.prm",
                                    "curves_grains.csv", "curves_continuum.csv"})
+
+
+def sand_history(pressure, e):
+    """Rows of a history on Hochstetten sand, made apart from the program: isotropic compression from a twentieth of the
+    pressure in stage 1, drained triaxial compression to 20 % in stage 2. e: void ratio at the start of the first."""
+    hochstetten, rows = sand.SANDS["hochstetten"], []
+
+    def rates(state):
+        D = sand.tensor(lambda i, j: -1 / 3 if i == j else 0)
+        stress = sand.tensor(lambda i, j: state[0] if i == j else 0)
+        return [sand.Response(hochstetten, stress, state[1]).rate(D)[0][0], -(1 + state[1])]
+    state, before = [-pressure / 20, e], None
+    while state[0] > -pressure:
+        rows.append([len(rows), 1, 0, 0, 0, 0, *[state[0]] * 3, 1 / (1 + state[1]), "compression"])
+        before, state = state, sand.advance(rates, state, 2e-5)
+    share = (-pressure - before[0]) / (state[0] - before[0])  # the last step ends at the pressure
+    start = before[1] + share * (state[1] - before[1])
+    rows.append([len(rows), 1, 0, 0, 0, 0, *[-pressure] * 3, 1 / (1 + start), "compression"])
+    # Rows close to one another at first.
+    shear = sand.triaxial(hochstetten, pressure, start, 0.002, (40, 1))
+    shear += [row for row in sand.triaxial(hochstetten, pressure, start, 0.22, (110, 3)) if row[0] > 0.002]
+    for compression, axial, lateral, e in shear:
+        height, volume = math.exp(-compression), (1 + e) / (1 + start)
+        width = math.sqrt(volume / height)
+        rows.append([len(rows), 2, width - 1, width - 1, height - 1, volume - 1, lateral, lateral, axial, 1 / (1 + e),
+                     "shear"])
+    return rows
+
+
+class Sand(Case):
+    """The law of sand, fitted to tests that another program made of it."""
+
+    SETTINGS = ["Sand/fit=true", f"Sand/loosest over critical={1.05 / 0.95}"]
+
+    def write_sand(self):
+        tests = [(friction, pressure, e) for friction, e in ((0.01, 0.62), (1, 0.85)) for pressure in (5e4, 4e5)]
+        self.write([(pressure, sand_history(pressure, e)) for _, pressure, e in tests],
+                   generation_friction={number: test[0] for number, test in enumerate(tests, 1)})
+
+    def test_known_parameters(self):
+        self.write_sand()
+        self.fitted(*self.SETTINGS)
+        laws = json.loads((self.out / "sand.json").read_text())
+        # Rows of 0.2 % of strain bend between one another: the first ones, where the stress rises, by a hundredth.
+        self.assertLess(laws["misfit"]["sand"]["all"], 0.01)
+        self.assertGreater(laws["misfit"]["mohr_coulomb"]["all"], 20 * laws["misfit"]["sand"]["all"])
+        for name, value, share in (("critical_friction_angle_deg", 33, 0.01), ("critical_void_ratio", 0.95, 0.01),
+                                   ("densest_void_ratio", 0.55, 0.03), ("compression_exponent", 0.25, 0.05),
+                                   ("pyknotropy_exponent", 0.25, 0.1), ("stiffness_exponent", 1.5, 0.1)):
+            with self.subTest(name):
+                self.assertAlmostEqual(laws["sand"][name] / value, 1, delta=share)
+        self.assertAlmostEqual(math.log(laws["sand"]["granulate_hardness_Pa"] / 1e9), 0, delta=0.5)
+        with open(self.out / "curves_laws.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({row["is_shear"] for row in rows}, {"0", "1"})
+        self.assertEqual(len({(row["generation_friction"], row["confining_pressure_Pa"]) for row in rows}), 4)
+        summary = json.loads((self.out / "summary.json").read_text())
+        self.assertEqual(summary["misfit_sand"], laws["misfit"]["sand"]["all"])
+        # The drivers read what it writes.
+        result = subprocess.run([str(TWO_SCALE), str(DRIVERS / "two_scale_triaxial/smoke.prm"), str(self.out / "sand.prm"),
+                                 "--set", "Model/kind=continuum", "--output", str(self.tmp / "cube"), "--no-plots",
+                                 "--quiet"], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("hypoplastic sand", (self.tmp / "cube" / "parameters.prm").read_text())
+
+    def test_one_density(self):
+        self.write([(pressure, sand_history(pressure, 0.7)) for pressure in (5e4, 4e5)])
+        self.assert_refused(self.fit(*self.SETTINGS), "Ensemble/generation frictions", "Sand/fit")
 
 
 class BadInput(Case):

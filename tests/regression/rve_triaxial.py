@@ -167,6 +167,15 @@ class Restart(Case):
         self.assert_same_results(whole, parts)
         self.assert_refused(self.run_driver(parts, *options, "--set", "Ensemble/seed=2"), "other parameters")
 
+    def test_stopped_while_it_packs(self):
+        """The first Ctrl-C ends a packing after its iteration, without a sample half begun."""
+        out = self.tmp / "run"
+        sample = out / "samples" / "0001"
+        options = ["--threads", "1", "--set", "Ensemble/edges=0.02"]  # some thousand grains: a packing of many seconds
+        result = stop_when(sample.exists, self.command(out, *options), signal.SIGINT)
+        self.assertIn("go on with --restart", result.stdout)
+        self.assertEqual(list(sample.iterdir()), [])
+
     def test_damaged_snapshot(self):
         """A sample whose snapshot is damaged is named; the other one is finished."""
         out = self.tmp / "run"

@@ -1,4 +1,6 @@
+#include "drivers/common/continuum_parameters.h"
 #include "drivers/common/coupling_parameters.h"
+#include "drivers/common/grain_parameters.h"
 #include "drivers/common/loading_parameters.h"
 #include "drivers/common/output_parameters.h"
 
@@ -45,4 +47,46 @@ TEST_CASE("parameters of the library get what the file says")
   CHECK(output.n_samples == 2);
   CHECK(output.n_pictures == 3);
   CHECK(output.snapshot_interval == 4.);
+}
+
+TEST_CASE("a material gets what the file says, in its own section")
+{
+  ContinuumParameters first, second;
+  ParameterFile file("test");
+  first.declare(file);
+  second.declare(file, "Layer 2");
+  for (const char *assignment :
+       {"Layer 2/law=hypoplastic sand", "Layer 2/Young's modulus=2e6", "Layer 2/Poisson's ratio=0.1",
+        "Layer 2/friction angle=30", "Layer 2/dilation angle=4", "Layer 2/cohesion=5", "Layer 2/reference pressure=6",
+        "Layer 2/stiffness exponent=0.7", "Layer 2/density=8", "Layer 2/Sand/void ratio=0.9", "Continuum/density=10"})
+    file.set(assignment);
+  CHECK(second.is_sand());
+  CHECK(second.mohr_coulomb.young_modulus == 2e6);
+  CHECK(second.mohr_coulomb.poisson_ratio == 0.1);
+  CHECK(second.mohr_coulomb.friction_angle == 30);
+  CHECK(second.mohr_coulomb.dilation_angle == 4);
+  CHECK(second.mohr_coulomb.cohesion == 5);
+  CHECK(second.mohr_coulomb.reference_pressure == 6);
+  CHECK(second.mohr_coulomb.stiffness_exponent == 0.7);
+  CHECK(second.density() == 8);
+  CHECK(second.sand.initial_void_ratio == 0.9);
+  CHECK_FALSE(first.is_sand());
+  CHECK(first.density() == 10);
+}
+
+TEST_CASE("grains get what the file says")
+{
+  dem::GrainDistribution sizes;
+  ParameterFile file("test");
+  declare_distribution(file, "Grains", sizes);
+  for (const char *assignment :
+       {"Grains/mean half-axes=1, 2, 3", "Grains/relative deviation=0.4", "Grains/smallest half-axis=0.5",
+        "Grains/largest half-axis=6", "Grains/smallest exponent=0.7", "Grains/largest exponent=1.8"})
+    file.set(assignment);
+  CHECK(sizes.mean_half_axes == Vec3(1, 2, 3));
+  CHECK(sizes.relative_deviation == 0.4);
+  CHECK(sizes.smallest_half_axis == 0.5);
+  CHECK(sizes.largest_half_axis == 6);
+  CHECK(sizes.smallest_exponent == 0.7);
+  CHECK(sizes.largest_exponent == 1.8);
 }

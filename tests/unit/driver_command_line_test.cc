@@ -4,6 +4,7 @@
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
+#include <omp.h>
 
 using namespace bergamo::driver;
 using bergamo::ConfigError;
@@ -101,6 +102,7 @@ TEST_CASE("mistakes on the command line are explained")
       {{file, (folder / "." / "sand.prm").string()}, "is given twice"},
       {{file, "--threads", "0"}, "--threads 0 is out of range; allowed: 1 to "},
       {{file, "--threads", "-3"}, "--threads -3 is out of range"},
+      {{file, "--threads", std::to_string(4 * omp_get_num_procs() + 1)}, "is out of range"}, // four a core
       {{file, "--threads", "100000"}, "--threads 100000 is out of range"},
       {{file, "--threads", "two"}, "--threads"},
       {{file, "--set", "Grains/friction"}, "has no '='"},

@@ -506,7 +506,7 @@ TEST_CASE("bending elements: rigid ones keep stress, hourglass forces and energi
 
 TEST_CASE("bending elements of sand follow their law at the mean strain and name what cannot be followed", "[fe]")
 {
-  const HypoplasticSand sand(sands::medium_sand());
+  const HypoplasticSand sand(sands::hochstetten());
   ExplicitBodyParameters parameters = bending_of(sand);
   parameters.initial_stress = uniform_pressure(1e5);
   ExplicitBody body = box(parameters, {1, 1, 1}, 3, 0.1);

@@ -1,9 +1,12 @@
 #include "dem/core/error.h"
+#include "fe_dealii/boundary/surface_load.h"
 #include "fe_dealii/conditions/boundary_conditions.h"
+#include "fe_dealii/conditions/quiet_boundary.h"
 #include "fe_dealii/conditions/rigid_boundary.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
 
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
 #include <catch2/catch.hpp>
@@ -82,6 +85,9 @@ TEST_CASE("boundary conditions are read from their text", "[fe]")
   CHECK_THROWS_WITH(parse_condition("1 speed x 0"), Contains("'speed'") && Contains("velocity"));
   CHECK_THROWS_WITH(parse_condition("1 traction w 0"), Contains("'w'"));
   CHECK_THROWS_WITH(parse_condition("1 traction x"), Contains("missing"));
+  CHECK(parse_condition("2 quiet").kind == ConditionKind::quiet);
+  CHECK(parse_condition("2 quiet").boundary_id == 2);
+  CHECK_THROWS_WITH(parse_condition("2 quiet x 0"), Contains("nothing follows the word quiet") && Contains("'x 0'"));
 }
 
 TEST_CASE("boundaries move and are loaded as their functions say", "[fe]")
@@ -152,6 +158,47 @@ TEST_CASE("motions that would have no effect, or another one, are refused by nam
   CHECK_THAT(refusal({"0 velocity x 0", "1 velocity x 0", "4 velocity x 1"}),
              Contains("'4 velocity x 1'") && Contains("hold all nodes"));
   CHECK(refusal({"0 velocity x 0", "4 velocity x 1", "4 velocity y 1", "5 traction z 1", "5 traction z 2"}).empty());
+  CHECK_THAT(refusal({"5 quiet", "5 quiet"}), Contains("'5 quiet'") && Contains("twice"));
+  CHECK_THAT(refusal({"5 quiet", "5 velocity x 0", "5 velocity y 0", "5 velocity z 0"}),
+             Contains("'5 quiet'") && Contains("along all axes"));
+  CHECK_THAT(refusal({"9 quiet"}), Contains("no boundary 9"));
+  CHECK(refusal({"5 quiet", "5 velocity x 0", "0 quiet", "1 quiet", "2 quiet", "3 quiet", "4 quiet"}).empty());
+}
+
+TEST_CASE("a quiet boundary takes rho c_p along its normal and rho c_s across it, on any face", "[fe]")
+{
+  const unsigned int degree = GENERATE(1u, 2u);
+  const LinearElastic law({.young_modulus = 1e6, .poisson_ratio = 0.3, .density = 1000});
+  dealii::Triangulation<3> mesh;
+  make_box({{0, 0, 0}, {1, 2, 3}, {2, 3, 2}, {1.5, 1, 2}}, mesh);
+  dealii::GridTools::rotate(dealii::Tensor<1, 3>({0, 0, 1}), 0.4, mesh);
+  dealii::GridTools::rotate(dealii::Tensor<1, 3>({1, 0, 0}), -0.7, mesh);
+  ExplicitBodyParameters parameters;
+  parameters.material = law;
+  parameters.degree = degree;
+  ExplicitBody body(mesh, parameters);
+  const SurfaceLoad top(boundary_surface(body.dof_handler(), 5), body.node_position());
+  std::vector<double> pull(3 * body.n_nodes(), 0.), none(pull.size(), 0.);
+  top.add_pressure(-1, none, pull); // along the normal
+  Vector normal{};
+  for (std::size_t dof = 0; dof < pull.size(); ++dof)
+    normal[dof % 3] += pull[dof] / 2; // 1 m x 2 m
+  const Vector across{normal[1], -normal[0], 0};
+  const std::vector<Dashpot> dashpots = quiet_boundary(body, 5);
+  body.add_dashpots(dashpots);
+  const double c_p = p_wave_speed(law), c_s = s_wave_speed(law);
+  for (const auto &[along, speed] : {std::pair(normal, c_p), std::pair(across, c_s)})
+  {
+    for (std::size_t dof = 0; dof < pull.size(); ++dof)
+      body.velocity()[dof] = along[dof % 3];
+    for (const unsigned int node : body.boundary_nodes(5))
+    {
+      const Vector drag = body.drag(node);
+      const double part = std::hypot(pull[3 * node], pull[3 * node + 1], pull[3 * node + 2]); // of the area
+      for (int i = 0; i < 3; ++i)
+        CHECK(drag[i] == Approx(1000 * speed * part * along[i]).margin(1e-9 * 1000 * c_p));
+    }
+  }
 }
 
 TEST_CASE("a rigid boundary follows its prescribed motion and keeps its distances at any rotation", "[fe]")
@@ -210,6 +257,29 @@ TEST_CASE("a free rigid body alone spins by Euler's equations and flies by Newto
   }
   CHECK(drift[0] < 1e-5);
   CHECK(drift[1] < 0.3 * drift[0]); // second order
+}
+
+TEST_CASE("a rigid body beside its nodes turns about the centre of both, with the inertia of both", "[fe]")
+{
+  ExplicitBody body = block();
+  const auto nodes = body.boundary_nodes(5);
+  double of_nodes = 0;
+  for (const unsigned int node : nodes)
+    of_nodes += body.mass()[3 * node];
+  const RigidBodyParameters own{.mass = 2 * of_nodes, .centre = {0.5, 2.5, 4}, .inertia = {300, 200, 100}};
+  RigidBoundary plate(body, nodes, own);
+  const Vector centre{0.5, (1 + 2 * 2.5) / 3, (3 + 2 * 4.) / 3}; // of the nodes' centre (0.5, 1, 3) and twice its own
+  const auto about_x = [&](const double mass, const Vector &place)
+  { return mass * (std::pow(place[1] - centre[1], 2) + std::pow(place[2] - centre[2], 2)); };
+  double inertia = own.inertia[0] + about_x(own.mass, own.centre);
+  for (const unsigned int node : nodes)
+    inertia += about_x(body.mass()[3 * node], body.node_position()[node]);
+  CHECK(plate.mass() == Approx(3 * of_nodes));
+  for (int i = 0; i < 3; ++i)
+    CHECK(plate.centre()[i] == Approx(centre[i]));
+  constexpr double dt = 1e-6, moment = 50;
+  plate.move({}, {moment, 0, 0}, dt);
+  CHECK(plate.angular_velocity()[0] == Approx(moment * dt / inertia).epsilon(1e-9));
 }
 
 TEST_CASE("a rigid body on a block: energy is kept and a static load is carried", "[fe]")

@@ -60,7 +60,7 @@ TEST_CASE("Hypoplastic sand: figures worked out apart from the program", "[fe]")
     Stress rate;
     LimitVoidRatios limits; // at 100 kPa
   };
-  const Figures all[] = {{medium_sand(),
+  const Figures all[] = {{hochstetten(),
                           2.760719078093142,
                           {-21545.68842587256, -47649.30444202051, -78248.28007208336, 7744.230638110212,
                            -1813.4089732866034, -22392.312202635356},
@@ -88,7 +88,7 @@ TEST_CASE("Hypoplastic sand: the rate is that of the tensor equation, homogeneou
 {
   Random random;
   double equation = 0, homogeneity = 0, rotation = 0, bound = 0, lipschitz = 0;
-  for (const HypoplasticParameters &parameters : {medium_sand(), fine_sand()})
+  for (const HypoplasticParameters &parameters : {hochstetten(), fine_sand()})
   {
     const HypoplasticSand sand(parameters);
     for (int trial = 0; trial < 20000; ++trial)
@@ -139,7 +139,7 @@ TEST_CASE("Hypoplastic sand: the rate is that of the tensor equation, homogeneou
 TEST_CASE("Hypoplastic sand: in the critical state stress and volume both stay, on the surface of Matsuoka and Nakai",
           "[fe]")
 {
-  for (const HypoplasticParameters &parameters : {medium_sand(), fine_sand()})
+  for (const HypoplasticParameters &parameters : {hochstetten(), fine_sand()})
   {
     const HypoplasticSand sand(parameters);
     const double sine = sine_of(parameters);
@@ -198,7 +198,7 @@ TEST_CASE("Matsuoka-Nakai factor: one on the axis and in triaxial compression, 1
 
 TEST_CASE("Hypoplastic sand: the loosest state is compressed by Bauer's law, a denser one is stiffer", "[fe]")
 {
-  for (const HypoplasticParameters &parameters : {medium_sand(), fine_sand()})
+  for (const HypoplasticParameters &parameters : {hochstetten(), fine_sand()})
   {
     const HypoplasticSand sand(parameters);
     const double n = parameters.compression_exponent, hardness = parameters.granulate_hardness;
@@ -231,7 +231,7 @@ TEST_CASE("Hypoplastic sand: the loosest state is compressed by Bauer's law, a d
 
 TEST_CASE("Hypoplastic sand: the limits of pressure and void ratio are those stated", "[fe]")
 {
-  HypoplasticParameters parameters = medium_sand();
+  HypoplasticParameters parameters = hochstetten();
   parameters.least_pressure = 500;
   const HypoplasticSand sand(parameters);
   const Strain strain_rate{3e-3, -1e-3, -6e-3, 2e-3, 1e-3, -4e-3};
@@ -302,10 +302,10 @@ TEST_CASE("Hypoplastic sand: each bad parameter is refused by name", "[fe]")
   for (const Bad &bad : all)
     for (const double value : {bad.value, double(NAN)})
     {
-      HypoplasticParameters parameters = medium_sand();
+      HypoplasticParameters parameters = hochstetten();
       parameters.*bad.member = value;
       CHECK_THROWS_WITH(HypoplasticSand(parameters), Catch::Contains("hypoplastic sand") && Catch::Contains(bad.name));
     }
-  CHECK_NOTHROW(HypoplasticSand(medium_sand()));
+  CHECK_NOTHROW(HypoplasticSand(hochstetten()));
   CHECK_NOTHROW(HypoplasticSand(fine_sand()));
 }

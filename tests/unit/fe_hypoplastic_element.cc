@@ -141,7 +141,7 @@ TEST_CASE("Element of sand: oedometer and triaxial paths are those of the point"
     Strain increment{0, 0, -1e-4, 0, 0, 0};
     for (int search = 0; search < 20; ++search)
     {
-      const Moduli tangent = sand.tangent(state, increment);
+      const Moduli tangent = sand.response(state).tangent(increment);
       const double miss = update(sand, state, increment).state.stress[0] + 100e3;
       const double correction = miss / (tangent[0][0] + tangent[0][1]);
       increment[0] = increment[1] = increment[0] - correction;

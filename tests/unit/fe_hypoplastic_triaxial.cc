@@ -99,7 +99,7 @@ Tensor staying_flow(const HypoplasticParameters &p, const SandState &state, cons
 TEST_CASE("Triaxial sand: dense and loose come to the same critical state, in compression and extension", "[fe]")
 {
   const double pressure = 100e3;
-  for (const HypoplasticParameters &parameters : {medium_sand(), fine_sand()})
+  for (const HypoplasticParameters &parameters : {hochstetten(), fine_sand()})
   {
     const HypoplasticSand sand(parameters);
     const LimitVoidRatios limits = sand.limit_void_ratios(pressure);
@@ -127,7 +127,7 @@ TEST_CASE("Triaxial sand: dense sand has a peak and dilates there as the equatio
           "[fe]")
 {
   const double pressure = 100e3;
-  for (const HypoplasticParameters &parameters : {medium_sand(), fine_sand()})
+  for (const HypoplasticParameters &parameters : {hochstetten(), fine_sand()})
   {
     const HypoplasticSand sand(parameters);
     const LimitVoidRatios limits = sand.limit_void_ratios(pressure);
@@ -168,7 +168,7 @@ TEST_CASE("Triaxial sand: dense sand has a peak and dilates there as the equatio
 
 TEST_CASE("Triaxial sand: pressure takes off peak and dilation at the same void ratio", "[fe]")
 {
-  const HypoplasticSand sand(medium_sand());
+  const HypoplasticSand sand(hochstetten());
   double last_peak = 1e9, last_dilation = 1e9;
   for (const double pressure : {50e3, 200e3, 1e6, 5e6})
   {
@@ -179,12 +179,12 @@ TEST_CASE("Triaxial sand: pressure takes off peak and dilation at the same void 
     last_peak = peak.ratio();
     last_dilation = peak.volume;
   }
-  CHECK(last_peak > friction_ratio(medium_sand())); // e_c at the last is 0.63
+  CHECK(last_peak > friction_ratio(hochstetten())); // e_c at the last is 0.63
 }
 
 TEST_CASE("Oedometric sand: the stress forgets its start and rises in proportion", "[fe]")
 {
-  const HypoplasticSand sand(medium_sand());
+  const HypoplasticSand sand(hochstetten());
   SandState even{{-20e3, -20e3, -20e3, 0, 0, 0}, 0.75}, uneven{{-40e3, -15e3, -12e3, 5e3, 0, 0}, 0.75};
   const auto apart = [&]
   {

@@ -27,6 +27,7 @@ struct Drawing
 {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<int, 8>> hexahedra;
+  int last_volume = 1; ///< number of the last hexahedron's volume; all others belong to 1
   std::vector<std::pair<int, std::array<int, 4>>> faces; ///< with their numbers
 
   /// A brick with its edges at 0 and `size` from `corner` on, its vertices joined to those that are there if they are
@@ -53,6 +54,8 @@ struct Drawing
     hexahedra.push_back(brick);
   }
 
+  int volume_of(const std::array<int, 8> &hexahedron) const { return hexahedron == hexahedra.back() ? last_volume : 1; }
+
   std::string as_gmsh2() const
   {
     std::ostringstream text;
@@ -70,7 +73,8 @@ struct Drawing
     }
     for (const auto &hexahedron : hexahedra)
     {
-      text << ++element << " 5 2 1 1";
+      const int volume = volume_of(hexahedron);
+      text << ++element << " 5 2 " << volume << ' ' << volume;
       for (const int v : hexahedron)
         text << ' ' << v + 1;
       text << '\n';
@@ -88,7 +92,7 @@ struct Drawing
     int element = 0;
     for (const auto &hexahedron : hexahedra)
     {
-      text << ++element << " 0 hex";
+      text << ++element << ' ' << volume_of(hexahedron) << " hex";
       for (const int v : hexahedron)
         text << ' ' << v + 1;
       text << '\n';
@@ -229,6 +233,37 @@ TEST_CASE("Mesh files of Gmsh and UCD: the cells, the numbers of the boundaries,
   CHECK(volume_of(mesh) == Approx(8));
   CHECK(faces_of(mesh) == std::map<unsigned int, int>{{0, 5}, {7, 1}});
   CHECK_THROWS_WITH(read_mesh(folder / "new.msh", mesh), Contains("already holds 1 cells"));
+}
+
+TEST_CASE("Mesh files: the volumes' numbers choose the materials", "[fe]")
+{
+  TemporaryFolder folder;
+  Drawing drawing = two_bricks();
+  drawing.last_volume = 12;
+  put(folder / "bar.msh", drawing.as_gmsh2());
+  put(folder / "bar.inp", drawing.as_ucd());
+  for (const char *const name : {"bar.msh", "bar.inp"})
+  {
+    CAPTURE(name);
+    Mesh mesh;
+    read_mesh(folder / name, mesh);
+    ExplicitBodyParameters parameters;
+    parameters.layers = {{1, LinearElastic({.density = 1500})}, {12, LinearElastic({.density = 2500})}};
+    const ExplicitBody body(mesh, parameters);
+    REQUIRE(body.n_elements() == 2);
+    for (std::size_t e = 0; e < 2; ++e)
+    {
+      const bool is_second = body.reference_centre(e)[0] > 1;
+      CHECK(body.material_id(e) == (is_second ? 12 : 1));
+      CHECK(density(body.material(e)) == (is_second ? 2500 : 1500));
+    }
+    double mass = 0;
+    for (std::size_t node = 0; node < body.n_nodes(); ++node)
+      mass += body.mass()[3 * node];
+    CHECK(mass == Approx(8 * 1500 + 16 * 2500));
+    parameters.layers.erase(12);
+    CHECK_THROWS_WITH(ExplicitBody(mesh, parameters), Contains("material id 12, which has no material"));
+  }
 }
 
 TEST_CASE("Mesh files: what cannot be read is named, with the file and the remedy", "[fe]")

@@ -2,12 +2,17 @@
 
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
+#include "fe_dealii/mesh/material_box.h"
 #include "fe_dealii/output.h"
+#include "tests/solid_shapes.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/fe_vtu_reader.h"
 
+#include <deal.II/grid/tria.h>
+
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -19,10 +24,10 @@ namespace
 constexpr float rounding = 1e-6f; // of the numbers in the file
 
 /// 1 × 2 × 3 m, two elements along z, each of one stress.
-ExplicitBody block(const unsigned int degree)
+ExplicitBody block(const Shape shape)
 {
   ExplicitBodyParameters parameters;
-  parameters.degree = degree;
+  set_shape(parameters, shape);
   parameters.material =
       MohrCoulomb({.young_modulus = 2e6, .poisson_ratio = 0.25, .friction_angle = 30, .cohesion = 7e3});
   parameters.initial_stress = [](const std::array<double, 3> &place)
@@ -34,9 +39,9 @@ ExplicitBody block(const unsigned int degree)
 
 TEST_CASE("displacements and velocities of all nodes are in the file, those between the corners too", "[fe]")
 {
-  const unsigned int degree = GENERATE(1u, 2u);
-  CAPTURE(degree);
-  ExplicitBody body = block(degree);
+  const Shape shape = GENERATE(Shape::plain, Shape::bending, Shape::quadratic);
+  CAPTURE(static_cast<int>(shape));
+  ExplicitBody body = block(shape);
   // Of second order in each coordinate: nothing at the corners of the elements from u_x.
   const auto u = [](const double x, const double y, const double z, const int i)
   {
@@ -54,7 +59,7 @@ TEST_CASE("displacements and velocities of all nodes are in the file, those betw
   const VtuReader file(folder / "body.vtu");
   const std::vector<double> points = file.points(), displacement = file.array("displacement"),
                             velocity = file.array("velocity");
-  const std::size_t per_cell = degree == 1 ? 8 : 27;
+  const std::size_t per_cell = shape == Shape::quadratic ? 27 : 8;
   REQUIRE(points.size() == 3 * 2 * per_cell);
   REQUIRE(displacement.size() == points.size());
   REQUIRE(velocity.size() == points.size());
@@ -67,7 +72,8 @@ TEST_CASE("displacements and velocities of all nodes are in the file, those betw
     REQUIRE(velocity[dof] == Approx(-7 * u(p[0], p[1], p[2], dof % 3)).margin(10 * rounding));
   }
   CHECK(places.size() == body.n_nodes());
-  CHECK(file.array("types") == std::vector<double>(2, degree == 1 ? 12 : 72)); // VTK's hexahedron, Lagrange's
+  CHECK(file.array("types") ==
+        std::vector<double>(2, shape == Shape::quadratic ? 72 : 12)); // VTK's hexahedron, Lagrange's
   const std::vector<double> connectivity = file.array("connectivity");
   REQUIRE(connectivity.size() == 2 * per_cell);
   CHECK(std::set<double>(connectivity.begin(), connectivity.end()).size() == 2 * per_cell);
@@ -102,14 +108,14 @@ TEST_CASE("VTK's order of a quadratic cell: corners, then the nodes of edges, fa
 
 TEST_CASE("stresses and what follows from them are in the file, cell by cell", "[fe]")
 {
-  const unsigned int degree = GENERATE(1u, 2u);
-  CAPTURE(degree);
-  const ExplicitBody body = block(degree);
+  const Shape shape = GENERATE(Shape::plain, Shape::bending, Shape::quadratic);
+  CAPTURE(static_cast<int>(shape));
+  const ExplicitBody body = block(shape);
   const TemporaryFolder folder;
   write_vtu(body, folder / "body.vtu");
   const VtuReader file(folder / "body.vtu");
   const std::vector<double> points = file.points();
-  const std::size_t n = degree == 1 ? 8 : 27;
+  const std::size_t n = shape == Shape::quadratic ? 27 : 8;
   const Stress stress[2] = {{-9e3, -8e3, -7e3, 300, 200, 100}, {-3e3, -4e3, -5e3, -100, 250, -350}};
   const char *const names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
   for (std::size_t cell = 0; cell < 2; ++cell)
@@ -144,5 +150,62 @@ TEST_CASE("stresses and what follows from them are in the file, cell by cell", "
     const double bulk = 2e6 / 1.5, shear = 2e6 / 2.5;
     CHECK(value("elastic_energy_density") == Approx(p * p / (2 * bulk) + j2 / (2 * shear)).epsilon(rounding));
     CHECK(value("equivalent_plastic_strain") == 0);
+    CHECK(value("material_id") == 0);
   }
+}
+
+TEST_CASE("the material ids of the mesh are in the file", "[fe]")
+{
+  dealii::Triangulation<3> mesh;
+  make_box({{0, 0, 0}, {1, 1, 3}, {1, 1, 3}}, mesh);
+  set_material({{0, 0, 1}, {1, 1, 2}, 9}, mesh);
+  ExplicitBodyParameters parameters;
+  parameters.layers = {{0, LinearElastic(ElasticParameters{})}, {9, LinearElastic(ElasticParameters{})}};
+  const TemporaryFolder folder;
+  write_vtu(ExplicitBody(mesh, parameters), folder / "body.vtu");
+  const VtuReader file(folder / "body.vtu");
+  const std::vector<double> points = file.points(), id = file.array("material_id");
+  REQUIRE(id.size() == 24);
+  for (std::size_t cell = 0; cell < 3; ++cell)
+  {
+    double middle = 0;
+    for (std::size_t k = 0; k < 8; ++k)
+      middle += points[3 * (8 * cell + k) + 2] / 8;
+    CHECK(id[8 * cell] == (middle > 1 && middle < 2 ? 9 : 0));
+  }
+}
+
+TEST_CASE("the void ratio of sand is in the file, cell by cell, and no other law's", "[fe]")
+{
+  ExplicitBodyParameters parameters;
+  HypoplasticParameters sand;
+  sand.initial_void_ratio = 0.7;
+  parameters.material = HypoplasticSand(sand);
+  set_shape(parameters, GENERATE(Shape::plain, Shape::bending, Shape::quadratic));
+  parameters.initial_stress = uniform_pressure(50e3);
+  ExplicitBody body = make_box_body({{0, 0, 0}, {1, 1, 2}, {1, 1, 2}}, parameters);
+  // Both elements shrink along x, the upper one more.
+  for (std::size_t node = 0; node < body.n_nodes(); ++node)
+  {
+    const auto &place = body.node_position()[node];
+    body.displacement()[3 * node] = -1e-3 * place[0] * std::max(0., place[2] - 1);
+  }
+  body.compute_internal_force();
+  const TemporaryFolder folder;
+  write_vtu(body, folder / "body.vtu");
+  const VtuReader file(folder / "body.vtu");
+  const std::vector<double> void_ratio = file.array("void_ratio"), pressure = file.array("pressure");
+  const std::size_t n = parameters.degree == 1 ? 8 : 27;
+  REQUIRE(void_ratio.size() == 2 * n);
+  for (std::size_t cell = 0; cell < 2; ++cell)
+  {
+    CHECK(void_ratio[n * cell] == Approx(body.state_of(cell).void_ratio).epsilon(rounding));
+    CHECK(pressure[n * cell] == Approx(-mean_stress(body.state_of(cell).stress)).epsilon(rounding));
+  }
+  const double least = std::min(void_ratio[0], void_ratio[n]), most = std::max(void_ratio[0], void_ratio[n]);
+  CHECK(most == Approx(0.7).epsilon(rounding));
+  CHECK(0.7 - least == Approx(1.7 * 0.5e-3).epsilon(1e-3)); // (1 + e) tr ε, to its square
+
+  write_vtu(block(Shape::plain), folder / "other.vtu");
+  CHECK_THROWS(VtuReader(folder / "other.vtu").array("void_ratio"));
 }

@@ -11,8 +11,8 @@
 namespace bergamo::fe::sands
 {
 
-/// About the quartz sand of von Wolffersdorff (1996) from Hochstetten: numbers as usual, not checked against his table.
-inline HypoplasticParameters medium_sand()
+/// Hochstetten sand, as Niemunis and Herle (Mech. Cohes.-Frict. Mater. 2 (1997) 279-299) use it.
+inline HypoplasticParameters hochstetten()
 {
   return {.critical_friction_angle = 33,
           .granulate_hardness = 1000e6,

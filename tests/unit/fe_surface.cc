@@ -12,7 +12,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
+#include <vector>
 
 using namespace bergamo::fe;
 
@@ -86,6 +88,79 @@ TEST_CASE("a surface's triangles close, point outwards and have its area", "[fe]
   }
   CHECK_THROWS_WITH(boundary_surface(box(1, 0).dof_handler(), 9),
                     Catch::Contains("no boundary 9") && Catch::Contains("0 1 2 3 4 5"));
+}
+
+namespace
+{
+
+/// ∫ N dx of the nodes of a row of elements, by their places: Simpson's weights for three nodes an element, halves for
+/// two.
+std::map<double, double> shares_along(const std::set<double> &places, const unsigned int degree)
+{
+  const std::vector<double> x(places.begin(), places.end());
+  std::map<double, double> shares;
+  for (std::size_t first = 0; first + degree < x.size(); first += degree)
+  {
+    const double length = x[first + degree] - x[first];
+    for (unsigned int k = 0; k <= degree; ++k)
+      shares[x[first + k]] += length * (degree == 1 ? 1. / 2 : k == 1 ? 4. / 6 : 1. / 6);
+  }
+  return shares;
+}
+
+} // namespace
+
+TEST_CASE("each node's part of a traction is that of its shape function, on faces of any size", "[fe]")
+{
+  const unsigned int degree = GENERATE(1u, 2u);
+  dealii::Triangulation<3> mesh;
+  make_box({{0, 0, 0}, {1, 2, 3}, {3, 4, 2}, {3, 0.2, 1}}, mesh);
+  ExplicitBodyParameters parameters;
+  parameters.degree = degree;
+  const ExplicitBody body(mesh, parameters);
+  const auto &x = body.node_position();
+  std::set<double> places[2];
+  const std::vector<unsigned int> top = body.boundary_nodes(5);
+  for (const unsigned int node : top)
+    for (int i = 0; i < 2; ++i)
+      places[i].insert(std::round(x[node][i] * 1e9) / 1e9);
+  const auto along_x = shares_along(places[0], degree), along_y = shares_along(places[1], degree);
+  std::vector<double> traction(3 * body.n_nodes(), 0.), pressure(traction.size(), 0.), none(traction.size(), 0.);
+  const SurfaceLoad load(boundary_surface(body.dof_handler(), 5), x);
+  load.add_traction({3, 0, -7}, traction);
+  load.add_pressure(7, none, pressure);
+  for (const unsigned int node : top)
+  {
+    const double area = along_x.at(std::round(x[node][0] * 1e9) / 1e9) * along_y.at(std::round(x[node][1] * 1e9) / 1e9);
+    CHECK(traction[3 * node] == Approx(3 * area).epsilon(1e-7));
+    CHECK(traction[3 * node + 2] == Approx(-7 * area).epsilon(1e-7));
+    CHECK(pressure[3 * node + 2] == Approx(-7 * area).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("a traction on a face that widens acts in the middle of its area", "[fe]")
+{
+  const unsigned int degree = GENERATE(1u, 2u);
+  dealii::Triangulation<3> mesh;
+  make_box({{0, 0, 0}, {1, 2, 1}, {2, 3, 1}}, mesh);
+  dealii::GridTools::transform(
+      [](const dealii::Point<3> &p) { return dealii::Point<3>(p[0] * (1 + 0.3 * p[1]), p[1], p[2]); }, mesh);
+  ExplicitBodyParameters parameters;
+  parameters.degree = degree;
+  const ExplicitBody body(mesh, parameters);
+  std::vector<double> force(3 * body.n_nodes(), 0.);
+  SurfaceLoad(boundary_surface(body.dof_handler(), 5), body.node_position()).add_traction({0, 0, 1}, force);
+  double area = 0, moment_x = 0, moment_y = 0;
+  for (std::size_t node = 0; node < body.n_nodes(); ++node)
+  {
+    area += force[3 * node + 2];
+    moment_x += force[3 * node + 2] * body.node_position()[node][0];
+    moment_y += force[3 * node + 2] * body.node_position()[node][1];
+  }
+  // Of the trapezoid with the sides 1 and 1.6 m at a distance of 2 m: ∫ (1 + 0.3 y) dy and its moments.
+  CHECK(area == Approx(2.6));
+  CHECK(moment_x == Approx(0.5 * (std::pow(1.6, 3) - 1) / 0.9));
+  CHECK(moment_y == Approx(2 + 0.3 * 8. / 3));
 }
 
 TEST_CASE("tractions and pressures on a surface have the resultants of their areas", "[fe]")

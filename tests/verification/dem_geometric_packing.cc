@@ -302,3 +302,16 @@ TEST_CASE("a packing that gets stuck says how far it came")
   CHECK(packed.report.smallest_size < 1.);
   CHECK(solid_volume(packed.particles) / std::pow(6e-3, 3) == Approx(packed.report.solid_fraction).epsilon(1e-12));
 }
+
+TEST_CASE("a packing that is stopped ends with the iteration, until then the same bits")
+{
+  PackingParameters parameters;
+  int n_asked = 0;
+  parameters.tightening.is_stopped = [&] { return n_asked++ == 10; };
+  const PackedGrains stopped = pack_grains({}, periodic_cube(6e-3), parameters, 1);
+  CHECK(stopped.report.tightening.size() == 10);
+  CHECK_FALSE(stopped.report.has_reached_target);
+  parameters = {};
+  parameters.tightening.max_iterations = 10;
+  CHECK(same_bits(stopped.particles, pack_grains({}, periodic_cube(6e-3), parameters, 1).particles));
+}

@@ -4,14 +4,18 @@
 
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
+#include "fe_dealii/mesh/material_box.h"
 #include "fe_dealii/stable_step.h"
 #include "tests/verification/fe_static.h"
 
+#include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace bergamo::fe;
@@ -224,4 +228,183 @@ TEST_CASE("bending elements at large strain: a cantilever bends to the elastica,
         CHECK(u == Approx(shortening).epsilon(0.04));
       }
     }
+}
+
+namespace
+{
+
+/// A beam of unit width whose layers differ in their modulus alone, one element over each, with what beam theory says
+/// of it: plane sections about the axis where moduli and stresses have no resultant (Timoshenko, J. Opt. Soc. Am. 11
+/// (1925) 233-255).
+struct LayeredBeam
+{
+  std::vector<double> top, moduli; // of the layers, from z = 0 upwards
+  double poisson_ratio;
+
+  double bottom(const std::size_t layer) const { return layer == 0 ? 0 : top[layer - 1]; }
+  double shear(const std::size_t layer) const { return moduli[layer] / (2 * (1 + poisson_ratio)); }
+
+  /// Σ E ∫ (z − origin)^power dz from z upwards.
+  double moment(const int power, const double origin, const double z) const
+  {
+    double sum = 0;
+    for (std::size_t k = 0; k < top.size(); ++k)
+    {
+      const double low = std::max(z, bottom(k)) - origin, high = std::max(z, top[k]) - origin;
+      sum += moduli[k] * (std::pow(high, power + 1) - std::pow(low, power + 1)) / (power + 1);
+    }
+    return sum;
+  }
+  double axis() const { return moment(1, 0, 0) / moment(0, 0, 0); }
+  double stiffness() const { return moment(2, axis(), 0); } ///< EI of all layers [Nm²]
+  /// Shear strain of the section by a unit force: ∫ τ²/G dz with the shear stress that the bending stresses ask for.
+  double softness_in_shear() const
+  {
+    constexpr int n = 1000;
+    double sum = 0;
+    for (std::size_t k = 0; k < top.size(); ++k)
+      for (int i = 0; i < n; ++i)
+      {
+        const double step = (top[k] - bottom(k)) / n;
+        sum += step * std::pow(moment(1, axis(), bottom(k) + (i + 0.5) * step) / stiffness(), 2) / shear(k);
+      }
+    return sum;
+  }
+
+  /// @param law material of a modulus
+  template <class Law>
+  ExplicitBody body(const unsigned int n_elements, const Law &law) const
+  {
+    ExplicitBodyParameters parameters;
+    parameters.hourglass = Hourglass::bending;
+    dealii::Triangulation<3> mesh;
+    const dealii::Point<3> low(0, -0.5, 0), high(length, 0.5, top.back());
+    dealii::GridGenerator::subdivided_hyper_rectangle(mesh, steps(n_elements), low, high, true);
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < top.size(); ++k)
+    {
+      parameters.layers.insert({k, law(moduli[k])});
+      set_material({{-everywhere, -everywhere, bottom(k)}, {everywhere, everywhere, top[k]}, unsigned(k)}, mesh);
+    }
+    return ExplicitBody(mesh, parameters);
+  }
+
+private:
+  std::vector<std::vector<double>> steps(const unsigned int n_elements) const
+  {
+    std::vector<double> thickness;
+    for (std::size_t k = 0; k < top.size(); ++k)
+      thickness.push_back(top[k] - bottom(k));
+    return {std::vector<double>(n_elements, length / n_elements), {1}, thickness};
+  }
+};
+
+/// A bimetal whose thinner metal is eight times as stiff, and a sandwich of a soft core.
+std::array<LayeredBeam, 2> layered_beams(const double poisson_ratio)
+{
+  return {LayeredBeam{{0.6, 1}, {young, 8 * young}, poisson_ratio},
+          LayeredBeam{{0.15, 0.9, 1}, {young, 0.01 * young, 2 * young}, poisson_ratio}};
+}
+
+/// Nodes of an element's face at the end, if it has one.
+bool is_at_end(const ExplicitBody &body, const unsigned int node)
+{
+  return body.node_position()[node][0] > length - 1e-6;
+}
+
+} // namespace
+
+TEST_CASE("bending elements in layers: pure bending of a bimetal and a sandwich is that of plane sections, exactly",
+          "[fe]")
+{
+  // Layers of one Poisson's ratio narrow alike, so the field of plane sections is the whole truth: a strain that is
+  // even over an element's thickness, and pure bending about its middle.
+  for (const double poisson_ratio : {0., 0.3, 0.499})
+    for (const LayeredBeam &beam : layered_beams(poisson_ratio))
+      for (const unsigned int n : {4u, 16u, 40u})
+        for (const bool is_large : {false, true})
+        {
+          CAPTURE(poisson_ratio, beam.top.size(), n, is_large);
+          const auto law = [&](const double modulus) -> Material
+          {
+            const ElasticParameters p{.young_modulus = modulus, .poisson_ratio = poisson_ratio, .density = heavy};
+            return is_large ? Material(NeoHooke(p)) : Material(LinearElastic(p));
+          };
+          ExplicitBody body = beam.body(n, law);
+          const double curvature = small_moment / beam.stiffness(), axis = beam.axis();
+          std::map<unsigned int, double> held;
+          for (const unsigned int node : body.boundary_nodes(0))
+          {
+            const double y = body.node_position()[node][1], z = body.node_position()[node][2] - axis;
+            held[3 * node] = 0;
+            held[3 * node + 1] = poisson_ratio * curvature * y * z;
+            held[3 * node + 2] = 0.5 * curvature * poisson_ratio * (z * z - y * y);
+          }
+          // The stress −E κ z on the faces at the end: of each layer its mean, and its couple.
+          std::vector<double> load(3 * body.n_nodes(), 0.);
+          for (std::size_t e = 0; e < body.n_elements(); ++e)
+          {
+            const std::size_t layer = body.material_id(e);
+            const double low = beam.bottom(layer) - axis, high = beam.top[layer] - axis, thickness = high - low;
+            const double mean = -beam.moduli[layer] * curvature * 0.5 * (low + high) * thickness;
+            const double couple = -beam.moduli[layer] * curvature * std::pow(thickness, 3) / 12;
+            for (const unsigned int node : body.element_nodes(e))
+              if (is_at_end(body, node))
+              {
+                const bool is_upper = body.node_position()[node][2] - axis > 0.5 * (low + high);
+                load[3 * node] += mean / 4 + (is_upper ? 0.5 : -0.5) * couple / thickness;
+              }
+          }
+          const double balance = 30 * rounding(law(young)); // of forces that differ more than those of one modulus
+          bring_to_rest(body, load, held, balance);
+          for (const unsigned int node : body.boundary_nodes(1))
+          {
+            const double y = body.node_position()[node][1], z = body.node_position()[node][2] - axis;
+            const double sag = 0.5 * curvature * (length * length + poisson_ratio * (z * z - y * y));
+            CHECK(body.displacement()[3 * node + 2] == Approx(sag).epsilon(2e-4));
+          }
+          const double greatest = 8 * young * curvature;
+          for (std::size_t e = 0; e < body.n_elements(); ++e)
+          {
+            const std::size_t layer = body.material_id(e);
+            const double middle = 0.5 * (beam.bottom(layer) + beam.top[layer]) - axis;
+            CHECK(body.state_of(e).stress[0] ==
+                  Approx(-beam.moduli[layer] * curvature * middle).margin(3 * balance * greatest));
+          }
+        }
+}
+
+TEST_CASE("bending elements in layers: a bimetal and a sandwich as cantilevers", "[fe]")
+{
+  for (const double poisson_ratio : {0.3, 0.499})
+    for (const LayeredBeam &beam : layered_beams(poisson_ratio))
+      for (const double ratio : {10., 5., 2.5, 1., 0.5})
+      {
+        CAPTURE(poisson_ratio, beam.top.size(), ratio);
+        const unsigned int n = std::lround(length / ratio);
+        const auto law = [&](const double modulus)
+        { return LinearElastic({.young_modulus = modulus, .poisson_ratio = poisson_ratio, .density = heavy}); };
+        ExplicitBody body = beam.body(n, law);
+        std::map<unsigned int, double> held;
+        const double curvature = small_moment / beam.stiffness(), axis = beam.axis();
+        for (const unsigned int node : body.boundary_nodes(0))
+        {
+          const double y = body.node_position()[node][1], z = body.node_position()[node][2] - axis;
+          held[3 * node] = 0;
+          held[3 * node + 1] = poisson_ratio * curvature * y * z;
+          held[3 * node + 2] = 0.5 * curvature * poisson_ratio * (z * z - y * y);
+        }
+        std::vector<double> load(3 * body.n_nodes(), 0.);
+        const auto end = body.boundary_nodes(1);
+        for (const unsigned int node : end)
+          load[3 * node + 2] = small_force / end.size();
+        bring_to_rest(body, load, held, 1e-7);
+        double deflection = 0;
+        for (const unsigned int node : end)
+          deflection += body.displacement()[3 * node + 2] / end.size();
+        const double bent = small_force * std::pow(length, 3) / (3 * beam.stiffness());
+        const double sheared = small_force * length * beam.softness_in_shear();
+        CAPTURE(deflection / (bent + sheared), sheared / bent);
+        CHECK(deflection == Approx(bent * (1 - 0.25 / (n * n)) + sheared).epsilon(2e-3));
+      }
 }
