@@ -112,7 +112,7 @@ MUTATIONS = [
         ("element/layered_elements.cc", "ElementGroup::make_rigid(element);", "", "a rigid part of a layered*"),
         ("element/layered_elements.cc", "(n_places() + points_per_pack - 1) / points_per_pack * points_per_pack",
          "n_places()", "a layered body*"),
-        ("element/bending_geometry.cc", "all.topRightCorner<n_amplitudes, 3 * n_inner>() * followed", "0 * followed",
+        ("element/bending_geometry.cc", "all.topRightCorner<n_amplitudes, 3 * n_inner>() * followed", "Eigen::Matrix<double, n_amplitudes, n_amplitudes>::Zero()",
          "bending elements in layers*"),
         ("element/small_strain_bending.cc", "kept = kept_share_of(this->law(), sand_state(this->history(pack), lane),",
          "kept_share_of(this->law(), sand_state(this->history(pack), lane),", "hypoplastic sand: under a strip*"),
