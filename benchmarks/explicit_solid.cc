@@ -81,7 +81,7 @@ nlohmann::json speed(const Options &options)
 nlohmann::json scaling(const Options &options)
 {
   nlohmann::json rows = nlohmann::json::array();
-  std::cout << "                      nodes  threads   million elements/s   efficiency, least median   most\n"
+  std::cout << "                            nodes  threads   million elements/s   efficiency, least median   most\n"
             << std::fixed;
   for (const SolidCase &what : chosen_cases(options))
   {
@@ -115,9 +115,9 @@ nlohmann::json size(const Options &options)
   omp_set_num_threads(1);
   const int n_most = options.n_elements ? options.n_elements : 1000000;
   nlohmann::json rows = nlohmann::json::array();
-  std::cout
-      << "                      nodes  elements   ns an element and step, least median   most   bytes an element\n"
-      << std::fixed << std::setprecision(0);
+  std::cout << "                            nodes  elements   ns an element and step, least median   most   bytes an "
+               "element\n"
+            << std::fixed << std::setprecision(0);
   for (const SolidCase &what : chosen_cases(options))
     for (double n = 1000.; n < 1.01 * n_most; n *= 10.)
     {

@@ -13,6 +13,7 @@
 #include "dem/geometry/pose_lanes.h"
 #include "dem/motion/leapfrog.h"
 #include "dem/packing/distribution.h"
+#include "fe_dealii/element/bending_hexahedron.h"
 #include "fe_dealii/element/hexahedron.h"
 
 #include <cstdio>
@@ -371,6 +372,56 @@ int hexahedra(const Law &law, const int passes, Random &random)
   return n_elements;
 }
 
+/// The same of elements that bend, eight in a pack; without the gathering of their nodes.
+int elastic_bending_hexahedron(const int passes, Random &random)
+{
+  constexpr int n_packs = 4;
+  struct EightElements
+  {
+    fe::bending::Geometry<fe::Points> geometry;
+    fe::PointHistory history;
+    fe::Points increment[fe::bending::n_dofs], force[fe::bending::n_dofs], amplitude[fe::bending::n_modes][3];
+  };
+  std::vector<EightElements> packs(n_packs);
+  const auto draw = [&](fe::Points &points, const double size)
+  {
+    for (int lane = 0; lane < fe::points_per_pack; ++lane)
+      points[lane] = random(-size, size);
+  };
+  for (EightElements &e : packs)
+  {
+    e = {};
+    e.geometry.volume = 1e-3;
+    for (auto &axis : e.geometry.gradient)
+      for (fe::Points &gradient : axis)
+        draw(gradient, 10.);
+    for (auto &mode : e.geometry.amplitude)
+      for (fe::Points &amplitude : mode)
+        draw(amplitude, 1.);
+    for (fe::Points &stiffness : e.geometry.stiffness)
+      draw(stiffness, 1e6);
+    for (fe::Points &displacement : e.increment)
+      draw(displacement, 1e-3);
+  }
+  const fe::LinearElastic law({.young_modulus = 60e6, .poisson_ratio = 0.15});
+  for (int pass = 0; pass < passes; ++pass)
+    for (EightElements &e : packs)
+    {
+      const fe::bending::Motion<fe::Points> motion = fe::bending::motion_of(e.geometry, e.increment);
+      fe::Points strain[6], on_amplitude[fe::bending::n_modes][3];
+      fe::bending::small_strain(motion.gradient, strain);
+      fe::update_stress(law, e.geometry.volume, strain, e.history, nullptr);
+      for (int mode = 0; mode < fe::bending::n_modes; ++mode)
+        for (int i = 0; i < 3; ++i)
+          e.amplitude[mode][i] += motion.amplitude[mode][i];
+      fe::bending::hourglass_force(e.geometry, e.amplitude, on_amplitude);
+      fe::bending::nodal_force(e.geometry, fe::bending::work_on_gradient(e.geometry, e.history.stress), on_amplitude,
+                               e.force);
+      asm volatile("" : : "m"(e.force)); // somebody reads them
+    }
+  return n_packs * fe::points_per_pack;
+}
+
 int elastic_hexahedron(const int passes, Random &random)
 {
   return hexahedra(fe::LinearElastic({.young_modulus = 60e6, .poisson_ratio = 0.15}), passes, random);
@@ -397,6 +448,7 @@ constexpr Kernel kernels[] = {
     {"sum_of_six_contacts", sum_of_six_contacts},
     {"elastic_hexahedron", elastic_hexahedron},
     {"flowing_hexahedron", flowing_hexahedron},
+    {"elastic_bending_hexahedron", elastic_bending_hexahedron},
 };
 
 } // namespace

@@ -36,8 +36,10 @@ fe::ExplicitBody make_body(const SolidCase &what, const int n_along)
   const auto n = static_cast<unsigned int>(n_along);
   dealii::Triangulation<3> mesh;
   fe::make_box({.subdivisions = {n, n, n}}, mesh);
-  return fe::ExplicitBody(mesh,
-                          {.material = what.material, .degree = what.degree, .initial_stress = what.initial_stress()});
+  return fe::ExplicitBody(mesh, {.material = what.material,
+                                 .degree = what.degree,
+                                 .hourglass = what.hourglass,
+                                 .initial_stress = what.initial_stress()});
 }
 
 } // namespace
@@ -51,8 +53,10 @@ std::vector<SolidCase> solid_cases()
   by_pressure.reference_pressure = 100e3;
   constexpr double pressure = 20e3; // small, so that few steps lead to the yield surface
   std::vector<SolidCase> cases;
-  for (const unsigned int degree : {1u, 2u})
+  for (const auto &[degree, hourglass] :
+       {std::pair(1u, fe::Hourglass::at_points), {1u, fe::Hourglass::bending}, {2u, fe::Hourglass::at_points}})
   {
+    const std::size_t first = cases.size();
     cases.push_back({"elastic", degree, fe::LinearElastic(soil), pressure, 0., 1e-8});
     cases.push_back({"Mohr-Coulomb elastic", degree, sand, pressure, 0., 1e-8});
     cases.push_back({"Mohr-Coulomb flowing", degree, sand, pressure, 0., 1e-5, 50});
@@ -60,6 +64,11 @@ std::vector<SolidCase> solid_cases()
     cases.push_back({"Neo-Hooke", degree, fe::NeoHooke(rubber), 0., 0.15, 1e-6});
     cases.push_back({"Mooney-Rivlin", degree, fe::MooneyRivlin({.elastic = rubber}), 0., 0.15, 1e-6});
     cases.push_back({"Ogden", degree, fe::Ogden(fe::OgdenParameters()), 0., 0.15, 1e-6});
+    for (std::size_t k = first; hourglass == fe::Hourglass::bending && k < cases.size(); ++k)
+    {
+      cases[k].hourglass = hourglass;
+      cases[k].name += ", bends";
+    }
   }
   return cases;
 }
@@ -70,7 +79,8 @@ int edges_of_cube(const SolidCase &what, const int n_elements)
 }
 
 MovingSolid::MovingSolid(const SolidCase &what, const int n_along)
-    : body(make_body(what, n_along)), time_step(0.2 / (n_along * what.degree * fe::p_wave_speed(what.material)))
+    : body(make_body(what, n_along)), n_points(what.n_points()),
+      time_step(0.2 / (n_along * what.degree * fe::p_wave_speed(what.material)))
 {
   const double between_nodes = 1. / (n_along * what.degree);
   const Eigen::Matrix3d rate = what.strain_per_step / time_step * unit_strain(),
@@ -122,7 +132,6 @@ double MovingSolid::flowing_share() const
   const auto *const elements = dynamic_cast<const fe::SmallStrainElements<fe::MohrCoulomb> *>(&body.elements());
   if (!elements)
     return 0.;
-  const int n_points = elements->nodes_per_element(); // Gauss points are as many
   std::size_t n_flowing = 0;
   for (std::size_t e = 0; e < elements->size(); ++e)
     for (int point = 0; point < n_points; ++point)

@@ -18,12 +18,16 @@ struct SolidCase
   double initial_strain = 0.;   ///< greatest principal strain of the start, at large strain
   double strain_per_step = 0.;  ///< most compressive principal strain of one step
   int n_first_steps = 5;        ///< before any time is taken: to flow, and to bring the data to the core
+  fe::Hourglass hourglass = fe::Hourglass::at_points; ///< of 8 nodes
 
   fe::InitialStress initial_stress() const
   {
     return initial_pressure > 0. ? fe::uniform_pressure(initial_pressure) : fe::InitialStress();
   }
-  int nodes_per_element() const { return degree == 1 ? 8 : 27; } ///< and as many quadrature points
+  int nodes_per_element() const { return degree == 1 ? 8 : 27; }
+  bool bends() const { return hourglass == fe::Hourglass::bending; } ///< the law once an element
+  /// Points at which an element asks its law.
+  int n_points() const { return bends() ? 1 : nodes_per_element(); }
   bool is_of_small_strain() const
   {
     return std::holds_alternative<fe::LinearElastic>(material) || std::holds_alternative<fe::MohrCoulomb>(material) ||
@@ -32,7 +36,7 @@ struct SolidCase
 };
 
 /// Elastic and Mohr-Coulomb (elastic, flowing, flowing with a stiffness that grows with the pressure) at small strain,
-/// Neo-Hooke, Mooney-Rivlin and Ogden at large strain; all of 8 nodes, then all of 27.
+/// Neo-Hooke, Mooney-Rivlin and Ogden at large strain; all of 8 nodes, then of 8 nodes that bend, then of 27.
 std::vector<SolidCase> solid_cases();
 
 /// A cube of bricks that deforms isochorically at a steady rate, along directions oblique to the axes and with a jitter
@@ -54,6 +58,7 @@ struct MovingSolid
   double flowing_share() const;
 
   fe::ExplicitBody body;
+  int n_points;     ///< at which an element asks its law
   double time_step; ///< a fifth of what a wave takes from node to node along an edge [s]
 };
 

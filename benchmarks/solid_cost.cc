@@ -1,5 +1,6 @@
 #include "benchmarks/solid_cost.h"
 
+#include "fe_dealii/element/bending_hexahedron.h"
 #include "fe_dealii/element/hexahedron.h"
 #include "fe_dealii/element/solid_geometry.h"
 #include "fe_dealii/element/stress_update.h"
@@ -64,6 +65,12 @@ Operations operations_of(const SolidCase &what, const double nodes_per_element, 
   o.strain = small ? 3. * n + n * (18. * n + (trilinear ? 9. : 0.)) : n * (18. * n + 35.);
   o.stress = n * std::visit(StressOfPoint{flowing_share}, what.material);
   o.force = n * (18. * n + (small ? (trilinear ? 16. : 6.) : (trilinear ? 27. : 27. + 8. + logarithm)));
+  if (what.bends())
+  {
+    o.strain = (small ? 3. * n : 35. + 216. + 30. * 8.) + 3. * 2. * 7. * n;
+    o.stress = std::visit(StressOfPoint{flowing_share}, what.material);
+    o.force = 2. * 144. + 3. * 2. * 7. * n + (small ? 6. : 216. + 27. + 28.);
+  }
   o.motion = 3. * n + 3. * 35. * nodes_per_element;
   return o;
 }
@@ -75,9 +82,13 @@ ElementMemory memory_of(const SolidCase &what, const double nodes_per_element, c
   const bool small = what.is_of_small_strain(), trilinear = what.degree == 1;
   constexpr double line = sizeof(fe::Points), real = sizeof(double), index = sizeof(unsigned int);
   ElementMemory memory;
-  memory.geometry = trilinear ? (small ? sizeof(fe::hexahedron::Geometry) : sizeof(fe::SolidGeometry<8, 1>))
-                              : sizeof(fe::SolidGeometry<27, 4>);
-  memory.history = small ? n_packs * (sizeof(fe::PointHistory) + fe::points_per_pack) : real;
+  const double per_pack = what.bends() ? 1. / fe::points_per_pack : 1.; // of an element in the packs of its points
+  memory.geometry = what.bends() ? per_pack * sizeof(fe::bending::Geometry<fe::Points>) + (small ? 0. : 3. * n * real)
+                    : trilinear  ? (small ? sizeof(fe::hexahedron::Geometry) : sizeof(fe::SolidGeometry<8, 1>))
+                                 : sizeof(fe::SolidGeometry<27, 4>);
+  memory.history = small ? per_pack * n_packs * (sizeof(fe::PointHistory) + fe::points_per_pack) : real;
+  const double modes = what.bends() && small ? fe::bending::n_amplitudes * real : 0.;
+  memory.history += modes;
   memory.force = 3. * n * real;
   // Indices of the nodes and places of their sums; at a node seven vectors, constraints, position, head of its places.
   memory.nodes = 2. * n * index + nodes_per_element * (3. * (7. * real + sizeof(int) + real) + sizeof(std::size_t));
@@ -85,7 +96,9 @@ ElementMemory memory_of(const SolidCase &what, const double nodes_per_element, c
   const auto *const sand = std::get_if<fe::MohrCoulomb>(&what.material);
   // Stresses; plastic strain and dissipation where it flows; elastic work.
   const double lines = 6. + (flowing_share > 0. ? 2. : 0.) + (sand && sand->depends_on_pressure() ? 1. : 0.);
-  const double history = small ? n_packs * (2. * lines * line + (sand ? 2. * fe::points_per_pack : 0.)) : 2. * real;
+  const double history =
+      2. * modes +
+      (small ? per_pack * n_packs * (2. * lines * line + (sand ? 2. * fe::points_per_pack : 0.)) : 2. * real);
   // A node's three components of: displacement, and the one before with small strain, to gather; displacement, the one
   // before (written) and the internal force (written) in its sum; velocity, reaction (both written), mass, external and
   // internal force and the constraint in a kick; displacement (written) and velocity in a drift.

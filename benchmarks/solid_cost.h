@@ -21,6 +21,11 @@ struct Operations
 ///   stress  a point, see stress_of_point().
 ///   force   a point 18 n (15 for the products with the gradients, 3 to sum the points) and, small, 6 weights or with 8
 ///           nodes 16 with the mean stress; large, 27 for P and its weight, with 27 nodes 28 more for U(J).
+///   Elements that bend: 3 n increments of small strain, 2 (3 + 4) n products-and-sums for each of three components of
+///   the
+///           mean gradient and the four modes; a point, one stress; the modes' forces 2 144; nodal forces as the
+///           motion. At large strain F̄ and its cofactor 35, the modes drawn back and forth 216, P and its weight 27,
+///           U(J) 28, and at eight points the Jacobian determinant, 30 each and 216 for their edges.
 ///   motion  3 n sums at the nodes; 33 in a kick (23 of them for the energies) and 2 in a drift for each of 3 N dofs.
 /// @param flowing_share of the points on the yield surface
 Operations operations_of(const SolidCase &what, double nodes_per_element, double flowing_share);

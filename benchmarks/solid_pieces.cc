@@ -97,10 +97,11 @@ struct Gradients
   Points energy{};
 };
 
-/// @param u displacements that the gradients are of
+/// @param u displacements that the gradients are of; @param per_pack elements that share a pack of points: the law is
+/// asked at the points of the first of them
 template <int n_nodes, class Law>
 double time_law_at(Law &&law, const dealii::DoFHandler<3> &dof_handler, const ElementGroup &elements,
-                   const std::vector<double> &u)
+                   const std::vector<double> &u, const std::size_t per_pack)
 {
   constexpr int n_packs = packs_of(n_nodes);
   const auto brick = brick_geometry<n_nodes>(dof_handler);
@@ -118,9 +119,9 @@ double time_law_at(Law &&law, const dealii::DoFHandler<3> &dof_handler, const El
         gradient[n_packs * (e - begin) + pack] = finite_strain::deformation_gradient(brick, pack, of_element);
     }
     const auto start = Clock::now();
-    for (std::size_t e = begin; e < end; ++e)
+    for (std::size_t e = begin; e < end; e += per_pack)
       for (int pack = 0; pack < n_packs; ++pack)
-        law(gradient[n_packs * (e - begin) + pack], brick.volume[pack], n_packs * e + pack);
+        law(gradient[n_packs * (e - begin) + pack], brick.volume[pack], n_packs * e / per_pack + pack);
     seconds += seconds_since(start);
   }
   return seconds;
@@ -134,8 +135,8 @@ using LawOfPoints = std::conditional_t<std::is_same_v<Law, LinearElastic> || std
 } // namespace
 
 SolidPieces::SolidPieces(const SolidCase &of_case, MovingSolid &of_solid)
-    : what(of_case), solid(of_solid),
-      elements(make_solid_elements(of_solid.body.dof_handler(), of_case.material, of_case.initial_stress()))
+    : what(of_case), solid(of_solid), elements(make_solid_elements(of_solid.body.dof_handler(), of_case.material,
+                                                                   of_case.initial_stress(), of_case.hourglass))
 {
   const auto present = solid.body.state();
   for (auto &[name, values] : elements->state())
@@ -170,8 +171,9 @@ double SolidPieces::time_law(const int n_steps)
     LawOfPoints<std::remove_cvref_t<decltype(material)>> law(material, *elements);
     double seconds = 0.;
     for (int n = 0; n < n_steps; ++n)
-      seconds += what.degree == 1 ? time_law_at<8>(law, solid.body.dof_handler(), *elements, u)
-                                  : time_law_at<27>(law, solid.body.dof_handler(), *elements, u);
+      seconds += what.degree == 1
+                     ? time_law_at<8>(law, solid.body.dof_handler(), *elements, u, what.bends() ? points_per_pack : 1)
+                     : time_law_at<27>(law, solid.body.dof_handler(), *elements, u, 1);
     return seconds;
   };
   return std::visit(time, what.material);

@@ -21,7 +21,7 @@ const std::map<std::string, double> aims{
 std::string name_of(const std::string &name, const int nodes_per_element)
 {
   std::ostringstream line;
-  line << std::left << std::setw(21) << name << std::right << std::setw(6) << nodes_per_element;
+  line << std::left << std::setw(27) << name << std::right << std::setw(6) << nodes_per_element;
   return line.str();
 }
 
@@ -70,8 +70,10 @@ SolidSpeed measure_speed(const SolidCase &what, const int n_along, const int n_r
 
 void print_rates(std::ostream &out, const std::vector<SolidSpeed> &speeds, const CorePeak &peak)
 {
-  out << "                                             million elements a second       needed    % of   moved    % of\n"
-         "                      nodes elements flowing   least median   most   aim    GFLOP/s    peak    GB/s    peak\n"
+  out << "                                                   million elements a second       needed    % of   moved    "
+         "% of\n"
+         "                            nodes elements flowing   least median   most   aim    GFLOP/s    peak    GB/s    "
+         "peak\n"
       << std::fixed;
   for (const SolidSpeed &s : speeds)
   {
@@ -90,7 +92,7 @@ void print_rates(std::ostream &out, const std::vector<SolidSpeed> &speeds, const
 
 void print_parts(std::ostream &out, const std::vector<SolidSpeed> &speeds)
 {
-  out << "\nns an element (%)     nodes     step" << std::setprecision(0);
+  out << "\nns an element (%)           nodes     step" << std::setprecision(0);
   if (!speeds.empty())
     for (const auto &[name, ns] : speeds.front().parts)
       out << std::setw(15) << name;
@@ -106,8 +108,8 @@ void print_parts(std::ostream &out, const std::vector<SolidSpeed> &speeds)
 
 void print_needs(std::ostream &out, const std::vector<SolidSpeed> &speeds)
 {
-  out << "\nan element needs             operations                              bytes\n"
-         "                      nodes  strain stress  force motion    all  geometry history forces nodes   all   "
+  out << "\nan element needs                   operations                              bytes\n"
+         "                            nodes  strain stress  force motion    all  geometry history forces nodes   all   "
          "moved\n"
       << std::setprecision(0);
   for (const SolidSpeed &s : speeds)

@@ -119,8 +119,8 @@ void MovingBody::compute_internal_force()
   if (progress_.has_forces != 0 && !has_moved())
     return;
   progress_.has_forces = 0;
-  const std::size_t n_elements = this->n_elements();
-  const std::size_t n_blocks = (n_elements + block_elements - 1) / block_elements;
+  const std::size_t n_places = elements_->n_places();
+  const std::size_t n_blocks = (n_places + block_elements - 1) / block_elements;
   const double *const now = displacement_.data();
   double *const before = displacement_of_stress_.data();
   const std::span<const double> element_force = elements_->forces();
@@ -131,7 +131,7 @@ void MovingBody::compute_internal_force()
                     for (std::size_t block = first; block < last; ++block)
                     {
                       const std::size_t begin = block * block_elements;
-                      const std::size_t end = std::min(n_elements, begin + block_elements);
+                      const std::size_t end = std::min(n_places, begin + block_elements);
                       if (const auto element = elements_->compute_forces(begin, end, now, before))
                         inverted.of(part).push_back(*element);
                     }
@@ -156,7 +156,7 @@ void MovingBody::compute_internal_force()
                     }
                   });
   if (const std::vector<std::size_t> all = inverted.all(); !all.empty())
-    report_failure(all.front());
+    report_failure(*std::min_element(all.begin(), all.end()));
   if (!endless.all().empty())
     report_endless_forces();
   progress_.has_forces = 1;

@@ -1,4 +1,5 @@
 #include "drivers/common/driver_main.h"
+#include "drivers/common/run/bending_warning.h"
 #include "drivers/common/run/energy_residual.h"
 #include "drivers/common/run/model_pictures.h"
 #include "drivers/common/run/rotation_watch.h"
@@ -76,6 +77,7 @@ int FootingRun::go()
   const double first_step = parameters.step_share * model.steps().stable().time_step;
   steps_over({"Footing/loading time", parameters.loading_time}, {"Output/step share", first_step}); // or refused
   run.open();
+  warn_of_thin_layers(model.body(), "set Ground/bending elements = true", run.progress());
   History history = run.history(table);
   const double end = parameters.loading_time;
   Stage stage;

@@ -39,6 +39,8 @@ void FootingParameters::declare(ParameterFile &file)
            "whose nodes are all held, beside a half one at the edge; sets the size of all elements",
            Range::between(1, 200));
   file.add("Ground", "element degree", degree, "1: hexahedra of 8 nodes; 2: of 27 nodes", Range::between(1, 2));
+  file.add("Ground", "bending elements", bending_elements,
+           "of degree 1: one law for each, and a stiffness of their own where they bend");
   file.add("Ground", "gravity", gravity, "downwards; 0: weightless [m/s2]", Range::non_negative());
   file.add("Ground", "surcharge", surcharge, "on the whole surface [Pa]", Range::non_negative());
   file.add("Ground", "earth pressure at rest", earth_pressure_at_rest, "K0: horizontal over vertical stress at rest",
@@ -86,6 +88,9 @@ void FootingParameters::validate() const
     reject("the ground would have ", elements_along(ground_width), " x ", elements_along(ground_depth),
            " elements, more than can be numbered; choose a smaller Ground/width or Ground/depth, or fewer "
            "Ground/elements under half the footing");
+  if (bending_elements && degree != 1)
+    reject("Ground/bending elements are of degree 1, but Ground/element degree is ", degree,
+           "; choose degree 1, or no bending elements: those of 27 nodes bend anyway");
   if (!(limit_pressure().davis > 0))
     reject("the ground bears no footing: ",
            continuum.is_sand() ? "" : "Continuum/cohesion is " + short_text(continuum.mohr_coulomb.cohesion) + ", ",

@@ -30,6 +30,8 @@ void TriaxialParameters::declare(ParameterFile &file)
            Range::between(1, 200));
   file.add("Model", "overlap layers", overlap_layers, "of these, the layers shared with the grains",
            Range::between(1, 200));
+  file.add("Model", "bending elements", bending_elements,
+           "one law for each hexahedron, and a stiffness of its own where it bends");
 
   declare_distribution(file, "Grains", distribution);
   declare_grains(file, simulation);

@@ -31,6 +31,7 @@ struct TriaxialParameters
   unsigned int elements_per_edge = 5;
   unsigned int continuum_layers = 3; ///< of elements, from the bottom
   unsigned int overlap_layers = 1;   ///< of these, shared with the grains
+  bool bending_elements = false;     ///< see fe::Hourglass
 
   dem::GrainDistribution distribution;
   dem::SimulationParameters simulation; ///< of the loading

@@ -33,6 +33,7 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
 
   fe::ExplicitBodyParameters body;
   body.material = parameters.continuum.material();
+  body.hourglass = parameters.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
   body.damping = parameters.continuum_damping;
   body.initial_stress = fe::uniform_pressure(parameters.compression.pressure);
   return std::make_unique<fe::ExplicitBody>(fe::make_box_body(mesh, body));

@@ -57,7 +57,10 @@ public:
   /// Nodal forces of the elements as last computed, in the order of nodes(), three each [N].
   std::span<const double> forces() const { return force_of_dof; }
 
-  /// Computes the forces of the elements from begin to end. Blocks may run at the same time.
+  /// Places in the order in which forces are computed; more than there are elements where some stay empty.
+  virtual std::size_t n_places() const { return size(); }
+  /// Computes the forces of the elements at the places from begin, a multiple of eight, to end. Blocks may run at the
+  /// same time.
   /// @param before displacement at the last call
   /// @return the first element that cannot go on, see failure()
   virtual std::optional<std::size_t> compute_forces(std::size_t begin, std::size_t end, const double *displacement,
@@ -88,12 +91,17 @@ public:
   virtual bool stiffens_with_displacement() const { return false; }
 
   /// Derivative by the displacement of the forces that compute_forces(displacement, before) would give, row-major
-  /// [N/m]. Not symmetric where the flow is not associated.
+  /// [N/m].
   virtual void tangent(std::size_t element, const double *displacement, const double *before, double *matrix) const = 0;
+  /// Whether tangent() always is; not where the flow is not associated.
+  virtual bool has_symmetric_tangent() const { return true; }
 
   /// Share of the body in what a two-scale model weighs, at the nodes of the whole body, in [0, 1]: multiplies mass and
   /// forces. Throws ConfigError where the elements know no shares.
   virtual void set_share(std::span<const double> nodal_share) = 0;
+
+  /// Whether one element over a thickness bends as it should; those of 8 nodes with strains at their points do not.
+  virtual bool bends() const { return true; }
 
   virtual double volume(std::size_t element) const = 0; ///< in the reference configuration, whatever the share [m³]
   virtual ElementState state_of(std::size_t element, const double *displacement) const = 0;

@@ -36,6 +36,7 @@ public:
     stiffness(element, displacement, matrix);
   }
   void set_share(std::span<const double> nodal_share) override;
+  bool bends() const override { return n_nodes != 8; }
   double volume(const std::size_t element) const override { return geometry_[element].whole_volume(); }
   ElementState state_of(std::size_t element, const double *displacement) const override;
   double elastic_energy() const override;

@@ -1,5 +1,7 @@
 #include "fe_dealii/element/layered_elements.h"
 
+#include "fe_dealii/element/points.h"
+
 #include <algorithm>
 
 namespace bergamo::fe
@@ -25,11 +27,23 @@ std::vector<unsigned int> nodes_of(const std::vector<std::unique_ptr<ElementGrou
 
 LayeredElements::LayeredElements(std::vector<std::unique_ptr<ElementGroup>> groups,
                                  const std::span<const std::size_t> group_of_element)
-    : ElementGroup(groups.front()->nodes_per_element(), nodes_of(groups, group_of_element)), groups_(std::move(groups))
+    : ElementGroup(groups.front()->nodes_per_element(), nodes_of(groups, group_of_element))
 {
-  std::vector<std::size_t> next(groups_.size(), 0);
-  for (const std::size_t group : group_of_element)
-    place_.push_back({group, next[group]++});
+  for (auto &group : groups)
+  {
+    const std::size_t first = (n_places() + points_per_pack - 1) / points_per_pack * points_per_pack;
+    layers_.push_back({std::move(group), {}, first});
+  }
+  for (const std::size_t layer : group_of_element)
+  {
+    place_.push_back({layer, layers_[layer].element.size()});
+    layers_[layer].element.push_back(place_.size() - 1);
+  }
+}
+
+std::size_t LayeredElements::n_places() const
+{
+  return layers_.empty() ? 0 : layers_.back().first_place + layers_.back().group->size();
 }
 
 void LayeredElements::make_rigid(const std::size_t element)
@@ -42,20 +56,18 @@ std::optional<std::size_t> LayeredElements::compute_forces(const std::size_t beg
                                                            const double *displacement, const double *before)
 {
   std::optional<std::size_t> failed;
-  for (std::size_t first = begin; first < end;)
+  for (const Layer &layer : layers_)
   {
-    // Elements of one group that follow one another do so in the group, too.
-    const Place place = place_[first];
-    std::size_t last = first + 1;
-    while (last < end && place_[last].group == place.group)
-      ++last;
-    const std::size_t n = last - first;
-    ElementGroup &group = *groups_[place.group];
-    const auto of_group = group.compute_forces(place.element, place.element + n, displacement, before);
-    if (of_group && !failed)
-      failed = first + (*of_group - place.element);
-    std::copy_n(&group.forces()[dofs_per_element() * place.element], dofs_per_element() * n, force(first));
-    first = last;
+    const std::size_t first = std::max(begin, layer.first_place);
+    const std::size_t last = std::min(end, layer.first_place + layer.group->size());
+    if (first >= last)
+      continue;
+    const auto of_group =
+        layer.group->compute_forces(first - layer.first_place, last - layer.first_place, displacement, before);
+    if (of_group)
+      failed = std::min(layer.element[*of_group], failed.value_or(size()));
+    for (std::size_t e = first - layer.first_place; e < last - layer.first_place; ++e)
+      std::copy_n(&layer.group->forces()[dofs_per_element() * e], dofs_per_element(), force(layer.element[e]));
   }
   return failed;
 }
@@ -87,8 +99,19 @@ double LayeredElements::stiffness_factor(const std::size_t element) const
 
 bool LayeredElements::stiffens_with_displacement() const
 {
-  return std::any_of(groups_.begin(), groups_.end(),
-                     [](const auto &group) { return group->stiffens_with_displacement(); });
+  return std::any_of(layers_.begin(), layers_.end(),
+                     [](const Layer &layer) { return layer.group->stiffens_with_displacement(); });
+}
+
+bool LayeredElements::has_symmetric_tangent() const
+{
+  return std::all_of(layers_.begin(), layers_.end(),
+                     [](const Layer &layer) { return layer.group->has_symmetric_tangent(); });
+}
+
+bool LayeredElements::bends() const
+{
+  return std::all_of(layers_.begin(), layers_.end(), [](const Layer &layer) { return layer.group->bends(); });
 }
 
 void LayeredElements::tangent(const std::size_t element, const double *displacement, const double *before,
@@ -99,8 +122,8 @@ void LayeredElements::tangent(const std::size_t element, const double *displacem
 
 void LayeredElements::set_share(const std::span<const double> nodal_share)
 {
-  for (const auto &group : groups_)
-    group->set_share(nodal_share);
+  for (const Layer &layer : layers_)
+    layer.group->set_share(nodal_share);
 }
 
 double LayeredElements::volume(const std::size_t element) const
@@ -117,8 +140,8 @@ template <class Energy>
 double LayeredElements::sum(const Energy energy) const
 {
   double whole = 0;
-  for (const auto &group : groups_)
-    whole += ((*group).*energy)();
+  for (const Layer &layer : layers_)
+    whole += ((*layer.group).*energy)();
   return whole;
 }
 
@@ -140,8 +163,8 @@ double LayeredElements::stiffness_loss() const
 std::vector<std::pair<std::string, std::span<double>>> LayeredElements::state()
 {
   std::vector<std::pair<std::string, std::span<double>>> views;
-  for (std::size_t k = 0; k < groups_.size(); ++k)
-    for (auto &[name, values] : groups_[k]->state())
+  for (std::size_t k = 0; k < layers_.size(); ++k)
+    for (auto &[name, values] : layers_[k].group->state())
       views.emplace_back("layer_" + std::to_string(k) + "_" + name, values);
   return views;
 }

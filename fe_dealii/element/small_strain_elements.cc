@@ -9,8 +9,9 @@ namespace bergamo::fe
 
 template <class Law>
 SmallStrainElements<Law>::SmallStrainElements(const Law &law, const int nodes_per_element,
-                                              std::vector<unsigned int> nodes, std::vector<History> start)
-    : ElementGroup(nodes_per_element, std::move(nodes)), law_(law), n_packs_(start.size() / size()),
+                                              std::vector<unsigned int> nodes, std::vector<History> start,
+                                              const int lanes_per_element)
+    : ElementGroup(nodes_per_element, std::move(nodes)), law_(law), n_lanes_(lanes_per_element),
       history_(std::move(start)), report_(points_per_pack * history_.size(), Report{})
 {
 }
@@ -19,18 +20,17 @@ template <class Law>
 double SmallStrainElements<Law>::volume(const std::size_t element) const
 {
   double result = 0;
-  for (int pack = 0; pack < n_packs_; ++pack)
-    result += sum(pack_volume(element, pack));
+  for (int point = 0; point < n_lanes_; ++point)
+    result += point_volume(element, point);
   return result;
 }
 
 template <class Law>
 Stress SmallStrainElements<Law>::stress(const std::size_t element, const int point) const
 {
-  const History &pack = history_[n_packs_ * element + point / points_per_pack];
   Stress result;
   for (int i = 0; i < 6; ++i)
-    result[i] = pack.stress[i][point % points_per_pack];
+    result[i] = history_of(element, point).stress[i][lane_of(element, point)];
   return result;
 }
 
@@ -39,19 +39,17 @@ ElementState SmallStrainElements<Law>::state_of(const std::size_t element, const
 {
   ElementState state;
   const double whole = volume(element);
-  for (int pack = 0; pack < n_packs_; ++pack)
+  for (int point = 0; point < n_lanes_; ++point)
   {
-    const History &history = history_[n_packs_ * element + pack];
-    const Points fraction = pack_volume(element, pack) / whole;
+    const double fraction = point_volume(element, point) / whole;
+    const Stress at_point = stress(element, point);
     for (int i = 0; i < 6; ++i)
-      state.stress[i] += sum(fraction * history.stress[i]);
-    state.plastic_strain += sum(fraction * history.plastic_strain);
+      state.stress[i] += fraction * at_point[i];
+    state.plastic_strain += fraction * history_of(element, point).plastic_strain[lane_of(element, point)];
     if constexpr (std::is_same_v<Law, HypoplasticSand>)
-      state.void_ratio += sum(fraction * history.void_ratio);
+      state.void_ratio += fraction * history_of(element, point).void_ratio[lane_of(element, point)];
+    state.energy_density += fraction * stored_energy(element, point);
   }
-  for (int point = 0; point < points_per_pack * n_packs_; ++point)
-    state.energy_density +=
-        pack_volume(element, point / points_per_pack)[point % points_per_pack] / whole * stored_energy(element, point);
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
     state.yield_function = law_.yield_function(state.stress);
   return state;
@@ -74,8 +72,8 @@ double SmallStrainElements<Law>::elastic_energy() const
 {
   double energy = 0;
   for (std::size_t e = 0; e < size(); ++e)
-    for (int point = 0; point < points_per_pack * n_packs_; ++point)
-      energy += pack_share_volume(e, point / points_per_pack)[point % points_per_pack] * stored_energy(e, point);
+    for (int point = 0; point < n_lanes_; ++point)
+      energy += point_share_volume(e, point) * stored_energy(e, point);
   return energy;
 }
 
@@ -103,29 +101,37 @@ double SmallStrainElements<Law>::stiffness_factor(const std::size_t element) con
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
     if (law_.depends_on_pressure())
     {
-      double least_trace = HUGE_VAL, checked = 0;
-      for (int pack = 0; pack < n_packs_; ++pack)
+      double least_mean = HUGE_VAL, checked = 0;
+      for (int point = 0; point < n_lanes_; ++point)
       {
-        const Points(&stress)[6] = history_[n_packs_ * element + pack].stress;
-        const Points trace = stress[0] + stress[1] + stress[2];
-        least_trace = std::min(least_trace, math::least(trace));
-        checked += sum(trace);
+        const double mean = mean_stress(stress(element, point));
+        least_mean = std::min(least_mean, mean);
+        checked += mean;
       }
-      return std::isfinite(checked) ? law_.stiffness_factor(least_trace / 3) : checked;
+      return std::isfinite(checked) ? law_.stiffness_factor(least_mean) : checked;
     }
   if constexpr (std::is_same_v<Law, HypoplasticSand>)
   {
     double greatest = 0, checked = 0;
-    for (int point = 0; point < points_per_pack * n_packs_; ++point)
+    for (int point = 0; point < n_lanes_; ++point)
     {
-      const double factor =
-          law_.stiffness_factor(sand_state(point_history(element, point / points_per_pack), point % points_per_pack));
+      const double factor = law_.stiffness_factor(sand_state(history_of(element, point), lane_of(element, point)));
       greatest = std::max(greatest, factor);
       checked += factor;
     }
     return std::isfinite(checked) ? greatest : checked;
   }
   return 1;
+}
+
+template <class Law>
+Moduli SmallStrainElements<Law>::tangent_moduli(const std::size_t element, const int point,
+                                                const Strain &strain_increment) const
+{
+  if constexpr (std::is_same_v<Law, HypoplasticSand>)
+    return consistent_tangent(law_, sand_state(history_of(element, point), lane_of(element, point)), strain_increment);
+  else
+    return law_.tangent(stress(element, point), strain_increment);
 }
 
 template <class Law>
@@ -137,17 +143,20 @@ void SmallStrainElements<Law>::tangent_moduli(const std::size_t element, const i
     Strain increment;
     for (int i = 0; i < 6; ++i)
       increment[i] = strain_increment[i][point];
-    const Moduli at_point = [&]
-    {
-      if constexpr (std::is_same_v<Law, HypoplasticSand>)
-        return consistent_tangent(law_, sand_state(point_history(element, pack), point), increment);
-      else
-        return law_.tangent(stress(element, points_per_pack * pack + point), increment);
-    }();
+    const Moduli at_point = tangent_moduli(element, points_per_pack * pack + point, increment);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j)
         moduli[i][j][point] = at_point[i][j];
   }
+}
+
+template <class Law>
+bool SmallStrainElements<Law>::has_symmetric_tangent() const
+{
+  if constexpr (std::is_same_v<Law, MohrCoulomb>)
+    return law_.parameters().friction_angle == law_.parameters().dilation_angle;
+  else
+    return std::is_same_v<Law, LinearElastic>;
 }
 
 template <class Law>
@@ -162,9 +171,9 @@ template <class Law>
 std::string SmallStrainElements<Law>::failure(const std::size_t element) const
 {
   if constexpr (std::is_same_v<Law, HypoplasticSand>)
-    for (int point = 0; point < points_per_pack * n_packs_; ++point)
-      if (const Report report = report_[points_per_pack * n_packs_ * element + point]; report != Report::done)
-        return explain(report, sand_state(point_history(element, point / points_per_pack), point % points_per_pack));
+    for (int point = 0; point < n_lanes_; ++point)
+      if (const Report report = report_[n_lanes_ * element + point]; report != Report::done)
+        return explain(report, sand_state(history_of(element, point), lane_of(element, point)));
   return ElementGroup::failure(element);
 }
 

@@ -11,7 +11,7 @@ template <class Law>
 SmallStrainHexahedra<Law>::SmallStrainHexahedra(const Law &law, std::vector<unsigned int> nodes,
                                                 std::vector<hexahedron::Geometry> geometry,
                                                 std::vector<typename SmallStrainElements<Law>::History> start)
-    : SmallStrainElements<Law>(law, hexahedron::n_nodes, std::move(nodes), std::move(start)),
+    : SmallStrainElements<Law>(law, hexahedron::n_nodes, std::move(nodes), std::move(start), hexahedron::n_points),
       geometry_(std::move(geometry))
 {
   find_start_force();
@@ -21,19 +21,17 @@ template <class Law>
 void SmallStrainHexahedra<Law>::find_start_force()
 {
   constexpr double rounding = 1e-13;
-  start_force_.assign(hexahedron::n_dofs * this->size(), 0.);
+  std::vector<double> force(hexahedron::n_dofs * this->size());
   bool is_even = true;
   for (std::size_t e = 0; e < this->size(); ++e)
   {
-    const Points(&stress)[6] = this->history(e, 0).stress;
+    const Points(&stress)[6] = this->history(e).stress;
     const Points trace = stress[0] + stress[1] + stress[2];
     const double low = math::least(trace), high = -math::least(-trace);
     is_even &= high - low <= rounding * std::max(std::abs(low), std::abs(high));
-    hexahedron::unevenness_force(geometry_[e], stress, &start_force_[hexahedron::n_dofs * e]);
+    hexahedron::unevenness_force(geometry_[e], stress, &force[hexahedron::n_dofs * e]);
   }
-  if (is_even)
-    start_force_.clear();
-  start_energy_.assign(start_force_.empty() ? 0 : this->size(), 0.);
+  start_force_ = is_even ? StartForce() : StartForce(std::move(force), hexahedron::n_dofs);
 }
 
 template <class Law>
@@ -48,43 +46,31 @@ std::optional<std::size_t> SmallStrainHexahedra<Law>::compute_forces(const std::
     this->gather_increment(e, displacement, before, increment);
     Points strain[6];
     hexahedron::strain(geometry_[e], increment, strain);
-    auto &history = this->history(e, 0);
-    if (!update_stress(this->law(), geometry_[e].share_volume, strain, history, this->reports(e, 0)))
+    auto &history = this->history(e);
+    if (!update_stress(this->law(), geometry_[e].share_volume, strain, history, this->reports(e)))
       return e;
     hexahedron::internal_force(geometry_[e], history.stress, this->force(e));
-    if (!start_force_.empty())
-      add_start_force(e, displacement);
+    if (start_force_.is_empty())
+      continue;
+    double u[hexahedron::n_dofs];
+    this->gather(e, displacement, u);
+    start_force_.add(e, u, this->force(e));
   }
   return std::nullopt;
 }
 
 template <class Law>
-void SmallStrainHexahedra<Law>::add_start_force(const std::size_t element, const double *displacement)
-{
-  double u[hexahedron::n_dofs];
-  this->gather(element, displacement, u);
-  const double *const start = &start_force_[hexahedron::n_dofs * element];
-  double *const force = this->force(element);
-  double energy = 0;
-  for (int dof = 0; dof < hexahedron::n_dofs; ++dof)
-  {
-    force[dof] += start[dof];
-    energy += start[dof] * u[dof];
-  }
-  start_energy_[element] = energy;
-}
-
-template <class Law>
 double SmallStrainHexahedra<Law>::elastic_energy() const
 {
-  return std::accumulate(start_energy_.begin(), start_energy_.end(), SmallStrainElements<Law>::elastic_energy());
+  const auto &start = start_force_.energy();
+  return std::accumulate(start.begin(), start.end(), SmallStrainElements<Law>::elastic_energy());
 }
 
 template <class Law>
 std::vector<std::pair<std::string, std::span<double>>> SmallStrainHexahedra<Law>::state()
 {
   auto views = SmallStrainElements<Law>::state();
-  views.push_back({"element_start_energy", start_energy_});
+  views.push_back({"element_start_energy", start_force_.energy()});
   return views;
 }
 

@@ -2,6 +2,7 @@
 
 #include "fe_dealii/element/hexahedron.h"
 #include "fe_dealii/element/small_strain_elements.h"
+#include "fe_dealii/element/start_force.h"
 
 namespace bergamo::fe
 {
@@ -23,25 +24,27 @@ public:
   void stiffness(std::size_t element, const double *displacement, double *matrix) const override;
   void tangent(std::size_t element, const double *displacement, const double *before, double *matrix) const override;
   void set_share(std::span<const double> nodal_share) override;
+  bool bends() const override { return false; }
   double elastic_energy() const override;
   std::vector<std::pair<std::string, std::span<double>>> state() override;
 
   const hexahedron::Geometry &geometry(const std::size_t element) const { return geometry_[element]; }
 
 private:
-  const Points &pack_volume(const std::size_t element, int) const override { return geometry_[element].volume; }
-  const Points &pack_share_volume(const std::size_t element, int) const override
+  double point_volume(const std::size_t element, const int point) const override
   {
-    return geometry_[element].share_volume;
+    return geometry_[element].volume[point];
+  }
+  double point_share_volume(const std::size_t element, const int point) const override
+  {
+    return geometry_[element].share_volume[point];
   }
 
   /// From the stresses at the points, which are those at the start.
   void find_start_force();
-  void add_start_force(std::size_t element, const double *displacement);
 
   std::vector<hexahedron::Geometry> geometry_;
-  std::vector<double> start_force_;  // unevenness_force() of the stresses at the start; none where they are even
-  std::vector<double> start_energy_; // of each element, its potential: start force times displacement [J]
+  StartForce start_force_; // unevenness_force() of the stresses at the start; none where they are even
 };
 
 extern template class SmallStrainHexahedra<LinearElastic>;

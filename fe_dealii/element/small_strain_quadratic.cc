@@ -66,8 +66,8 @@ template <class Law>
 SmallStrainQuadratic<Law>::SmallStrainQuadratic(const Law &law, std::vector<unsigned int> nodes,
                                                 std::vector<Geometry> geometry, MassShares mass_shares,
                                                 std::vector<typename SmallStrainElements<Law>::History> start)
-    : SmallStrainElements<Law>(law, n_nodes, std::move(nodes), std::move(start)), geometry_(std::move(geometry)),
-      mass_shares_(std::move(mass_shares))
+    : SmallStrainElements<Law>(law, n_nodes, std::move(nodes), std::move(start), points_per_pack * n_packs),
+      geometry_(std::move(geometry)), mass_shares_(std::move(mass_shares))
 {
 }
 
@@ -87,8 +87,9 @@ std::optional<std::size_t> SmallStrainQuadratic<Law>::compute_forces(const std::
     {
       Points strain_increment[6];
       strain(geometry_[e], pack, increment, strain_increment);
-      auto &history = this->history(e, pack);
-      if (!update_stress(this->law(), geometry_[e].volume[pack], strain_increment, history, this->reports(e, pack)))
+      const std::size_t place = n_packs * e + pack;
+      auto &history = this->history(place);
+      if (!update_stress(this->law(), geometry_[e].volume[pack], strain_increment, history, this->reports(place)))
         return e;
       add_internal_force(geometry_[e], pack, history.stress, force);
     }

@@ -28,13 +28,13 @@ public:
   void set_share(std::span<const double> nodal_share) override;
 
 private:
-  const Points &pack_volume(const std::size_t element, const int pack) const override
+  double point_volume(const std::size_t element, const int point) const override
   {
-    return geometry_[element].volume[pack];
+    return geometry_[element].volume[point / points_per_pack][point % points_per_pack];
   }
-  const Points &pack_share_volume(const std::size_t element, const int pack) const override
+  double point_share_volume(const std::size_t element, const int point) const override
   {
-    return geometry_[element].volume[pack];
+    return point_volume(element, point);
   }
 
   std::vector<Geometry> geometry_;

@@ -2,7 +2,9 @@
 
 #include "dem/core/error.h"
 #include "fe_dealii/element/cell_nodes.h"
+#include "fe_dealii/element/finite_strain_bending.h"
 #include "fe_dealii/element/finite_strain_solid.h"
+#include "fe_dealii/element/small_strain_bending.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/element/small_strain_quadratic.h"
 
@@ -153,6 +155,31 @@ std::unique_ptr<ElementGroup> small_strain_trilinear(const Cells &cells, const L
                                                      std::move(geometries), std::move(start));
 }
 
+bending::Corners corners_of(const dealii::FEValues<3> &values)
+{
+  bending::Corners corners;
+  for (int node = 0; node < bending::n_nodes; ++node)
+    for (int i = 0; i < 3; ++i)
+      corners[node][i] = values.get_cell()->vertex(node)[i];
+  return corners;
+}
+
+template <class Law>
+std::unique_ptr<ElementGroup> small_strain_bending(const Cells &cells, const Law &law,
+                                                   const InitialStress &initial_stress)
+{
+  std::vector<typename KeptAtPoints<Law>::History> start;
+  std::vector<bending::Corners> corners;
+  for_each_cell(cells, 1,
+                [&](const dealii::FEValues<3> &values)
+                {
+                  corners.push_back(corners_of(values));
+                  add_start(values, law, initial_stress, start);
+                });
+  return std::make_unique<SmallStrainBending<Law>>(law, cell_nodes(cells.dof_handler, cells.material_id),
+                                                   std::move(corners), start);
+}
+
 /// Geometries and lumped masses of elements that are integrated in full.
 template <int n_nodes>
 struct Solids
@@ -227,18 +254,30 @@ std::unique_ptr<ElementGroup> finite_strain(const Cells &cells, const Law &law)
                                                            std::move(solids.geometry), std::move(solids.mass_shares));
 }
 
+template <class Law>
+std::unique_ptr<ElementGroup> finite_strain_bending(const Cells &cells, const Law &law)
+{
+  std::vector<bending::Corners> corners;
+  for_each_cell(cells, 1, [&](const dealii::FEValues<3> &values) { corners.push_back(corners_of(values)); });
+  return std::make_unique<FiniteStrainBending<Law>>(law, cell_nodes(cells.dof_handler, cells.material_id),
+                                                    std::move(corners));
+}
+
 struct Maker
 {
   Cells cells;
   const InitialStress &initial_stress;
+  Hourglass hourglass;
 
   unsigned int degree() const { return cells.dof_handler.get_fe().degree; }
 
   template <class Law>
   std::unique_ptr<ElementGroup> of_small_strain(const Law &law) const
   {
-    return degree() == 1 ? small_strain_trilinear(cells, law, initial_stress)
-                         : small_strain_quadratic(cells, law, initial_stress);
+    if (degree() == 2)
+      return small_strain_quadratic(cells, law, initial_stress);
+    return hourglass == Hourglass::bending ? small_strain_bending(cells, law, initial_stress)
+                                           : small_strain_trilinear(cells, law, initial_stress);
   }
 
   template <class Law>
@@ -247,9 +286,9 @@ struct Maker
     if (initial_stress)
       throw ConfigError("continuum: initial_stress is given for a law of large strain, which has no stress at rest; "
                         "leave it out");
-    if (degree() == 1)
-      return finite_strain<Law, 8>(cells, law);
-    return finite_strain<Law, 27>(cells, law);
+    if (degree() == 2)
+      return finite_strain<Law, 27>(cells, law);
+    return hourglass == Hourglass::bending ? finite_strain_bending(cells, law) : finite_strain<Law, 8>(cells, law);
   }
 
   std::unique_ptr<ElementGroup> operator()(const LinearElastic &law) const { return of_small_strain(law); }
@@ -263,10 +302,10 @@ struct Maker
 } // namespace
 
 std::unique_ptr<ElementGroup> make_solid_elements(const dealii::DoFHandler<3, 3> &dof_handler, const Material &material,
-                                                  const InitialStress &initial_stress,
+                                                  const InitialStress &initial_stress, const Hourglass hourglass,
                                                   const std::optional<unsigned int> material_id)
 {
-  return std::visit(Maker{{dof_handler, material_id}, initial_stress}, material);
+  return std::visit(Maker{{dof_handler, material_id}, initial_stress, hourglass}, material);
 }
 
 } // namespace bergamo::fe

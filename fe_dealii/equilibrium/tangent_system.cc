@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace bergamo::fe
@@ -22,14 +21,6 @@ namespace
 {
 
 constexpr std::size_t block_elements = 128; // whose matrices are held at the same time
-
-bool flow_is_associated(const Material &material)
-{
-  if (std::holds_alternative<HypoplasticSand>(material))
-    return false;
-  const MohrCoulomb *const sand = std::get_if<MohrCoulomb>(&material);
-  return !sand || sand->parameters().friction_angle == sand->parameters().dilation_angle;
-}
 
 } // namespace
 
@@ -56,8 +47,6 @@ TangentSystem::TangentSystem(const ExplicitBody &body, const std::size_t direct_
                    "of the program");
   const std::size_t n_dofs = 3 * body.n_nodes();
   trilinos->is_direct = n_dofs <= direct_limit;
-  for (std::size_t e = 0; e < body.n_elements(); ++e)
-    flow_is_associated_ = flow_is_associated_ && flow_is_associated(body.material(e));
   dealii::DynamicSparsityPattern pattern(n_dofs, n_dofs);
   std::vector<unsigned int> columns;
   for (std::size_t e = 0; e < body.n_elements(); ++e)
@@ -137,7 +126,7 @@ void TangentSystem::assemble_tangent(const double *displacement, const double *b
   trilinos->assemble(
       body, [&](const std::size_t e, double *matrix) { body.elements().tangent(e, displacement, before, matrix); },
       moved, pull);
-  trilinos->is_symmetric = flow_is_associated_;
+  trilinos->is_symmetric = body.elements().has_symmetric_tangent();
 }
 
 void TangentSystem::Trilinos::precondition(const ExplicitBody &body)

@@ -37,7 +37,6 @@ private:
   struct Trilinos;
   std::unique_ptr<Trilinos> trilinos;
   const ExplicitBody &body;
-  bool flow_is_associated_ = true; // of all materials
 };
 
 } // namespace bergamo::fe

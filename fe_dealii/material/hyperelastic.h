@@ -32,6 +32,9 @@ struct VolumetricEnergy
   {
     return (0.5 * modulus) * (ratio - 1. / ratio);
   }
+
+  /// U''(J) [Pa].
+  double slope(const double ratio) const { return (0.5 * modulus) * (1. + 1. / (ratio * ratio)); }
 };
 
 /// What a deformation gradient gives at a point.

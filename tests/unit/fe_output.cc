@@ -4,6 +4,7 @@
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/mesh/material_box.h"
 #include "fe_dealii/output.h"
+#include "tests/solid_shapes.h"
 #include "tests/temporary_folder.h"
 #include "tests/unit/fe_vtu_reader.h"
 
@@ -23,10 +24,10 @@ namespace
 constexpr float rounding = 1e-6f; // of the numbers in the file
 
 /// 1 × 2 × 3 m, two elements along z, each of one stress.
-ExplicitBody block(const unsigned int degree)
+ExplicitBody block(const Shape shape)
 {
   ExplicitBodyParameters parameters;
-  parameters.degree = degree;
+  set_shape(parameters, shape);
   parameters.material =
       MohrCoulomb({.young_modulus = 2e6, .poisson_ratio = 0.25, .friction_angle = 30, .cohesion = 7e3});
   parameters.initial_stress = [](const std::array<double, 3> &place)
@@ -38,9 +39,9 @@ ExplicitBody block(const unsigned int degree)
 
 TEST_CASE("displacements and velocities of all nodes are in the file, those between the corners too", "[fe]")
 {
-  const unsigned int degree = GENERATE(1u, 2u);
-  CAPTURE(degree);
-  ExplicitBody body = block(degree);
+  const Shape shape = GENERATE(Shape::plain, Shape::bending, Shape::quadratic);
+  CAPTURE(static_cast<int>(shape));
+  ExplicitBody body = block(shape);
   // Of second order in each coordinate: nothing at the corners of the elements from u_x.
   const auto u = [](const double x, const double y, const double z, const int i)
   {
@@ -58,7 +59,7 @@ TEST_CASE("displacements and velocities of all nodes are in the file, those betw
   const VtuReader file(folder / "body.vtu");
   const std::vector<double> points = file.points(), displacement = file.array("displacement"),
                             velocity = file.array("velocity");
-  const std::size_t per_cell = degree == 1 ? 8 : 27;
+  const std::size_t per_cell = shape == Shape::quadratic ? 27 : 8;
   REQUIRE(points.size() == 3 * 2 * per_cell);
   REQUIRE(displacement.size() == points.size());
   REQUIRE(velocity.size() == points.size());
@@ -71,7 +72,8 @@ TEST_CASE("displacements and velocities of all nodes are in the file, those betw
     REQUIRE(velocity[dof] == Approx(-7 * u(p[0], p[1], p[2], dof % 3)).margin(10 * rounding));
   }
   CHECK(places.size() == body.n_nodes());
-  CHECK(file.array("types") == std::vector<double>(2, degree == 1 ? 12 : 72)); // VTK's hexahedron, Lagrange's
+  CHECK(file.array("types") ==
+        std::vector<double>(2, shape == Shape::quadratic ? 72 : 12)); // VTK's hexahedron, Lagrange's
   const std::vector<double> connectivity = file.array("connectivity");
   REQUIRE(connectivity.size() == 2 * per_cell);
   CHECK(std::set<double>(connectivity.begin(), connectivity.end()).size() == 2 * per_cell);
@@ -106,14 +108,14 @@ TEST_CASE("VTK's order of a quadratic cell: corners, then the nodes of edges, fa
 
 TEST_CASE("stresses and what follows from them are in the file, cell by cell", "[fe]")
 {
-  const unsigned int degree = GENERATE(1u, 2u);
-  CAPTURE(degree);
-  const ExplicitBody body = block(degree);
+  const Shape shape = GENERATE(Shape::plain, Shape::bending, Shape::quadratic);
+  CAPTURE(static_cast<int>(shape));
+  const ExplicitBody body = block(shape);
   const TemporaryFolder folder;
   write_vtu(body, folder / "body.vtu");
   const VtuReader file(folder / "body.vtu");
   const std::vector<double> points = file.points();
-  const std::size_t n = degree == 1 ? 8 : 27;
+  const std::size_t n = shape == Shape::quadratic ? 27 : 8;
   const Stress stress[2] = {{-9e3, -8e3, -7e3, 300, 200, 100}, {-3e3, -4e3, -5e3, -100, 250, -350}};
   const char *const names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
   for (std::size_t cell = 0; cell < 2; ++cell)
@@ -179,7 +181,7 @@ TEST_CASE("the void ratio of sand is in the file, cell by cell, and no other law
   HypoplasticParameters sand;
   sand.initial_void_ratio = 0.7;
   parameters.material = HypoplasticSand(sand);
-  parameters.degree = GENERATE(1u, 2u);
+  set_shape(parameters, GENERATE(Shape::plain, Shape::bending, Shape::quadratic));
   parameters.initial_stress = uniform_pressure(50e3);
   ExplicitBody body = make_box_body({{0, 0, 0}, {1, 1, 2}, {1, 1, 2}}, parameters);
   // Both elements shrink along x, the upper one more.
@@ -204,6 +206,6 @@ TEST_CASE("the void ratio of sand is in the file, cell by cell, and no other law
   CHECK(most == Approx(0.7).epsilon(rounding));
   CHECK(0.7 - least == Approx(1.7 * 0.5e-3).epsilon(1e-3)); // (1 + e) tr ε, to its square
 
-  write_vtu(block(1), folder / "other.vtu");
+  write_vtu(block(Shape::plain), folder / "other.vtu");
   CHECK_THROWS(VtuReader(folder / "other.vtu").array("void_ratio"));
 }

@@ -1,5 +1,6 @@
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
+#include "tests/solid_shapes.h"
 
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -101,7 +102,8 @@ TEST_CASE("Mohr-Coulomb: the tangent is symmetric if the flow is associated", "[
 TEST_CASE("the tangent of an element is the derivative of its forces", "[fe]")
 {
   ExplicitBodyParameters parameters;
-  parameters.degree = GENERATE(1u, 2u);
+  const Shape shape = GENERATE(Shape::plain, Shape::bending, Shape::quadratic);
+  set_shape(parameters, shape);
   const int kind = GENERATE(0, 1, 2);
   if (kind == 0)
     parameters.material = LinearElastic({.young_modulus = 60e6, .poisson_ratio = 0.3});
@@ -111,7 +113,7 @@ TEST_CASE("the tangent of an element is the derivative of its forces", "[fe]")
     parameters.material = NeoHooke({.young_modulus = 60e6, .poisson_ratio = 0.3});
   if (kind == 1)
     parameters.initial_stress = uniform_pressure(2e4);
-  CAPTURE(parameters.degree, kind);
+  CAPTURE(static_cast<int>(shape), kind);
   dealii::Triangulation<3> mesh;
   make_box({{0, 0, 0}, {1, 1, 1}, {2, 1, 1}}, mesh);
   dealii::GridTools::distort_random(0.1, mesh, false, 5);

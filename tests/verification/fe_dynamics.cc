@@ -1,4 +1,4 @@
-#include "fe_dealii/element/small_strain_hexahedra.h"
+#include "fe_dealii/element/small_strain_elements.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
@@ -51,9 +51,10 @@ double mode(const double x)
 // Everything at once: plasticity, gravity, damping, a moving lid, a share that varies, coupling-like forces, prestress.
 struct Everything
 {
-  static ExplicitBody make(const bool shared = true)
+  static ExplicitBody make(const bool shared = true, const Hourglass hourglass = Hourglass::at_points)
   {
     ExplicitBodyParameters parameters;
+    parameters.hourglass = hourglass;
     parameters.gravity = {0.3, 0, -9.81};
     parameters.damping = 20;
     parameters.initial_stress = uniform_pressure(2000);
@@ -165,7 +166,8 @@ TEST_CASE("A step wave runs with c = sqrt(E/rho) and carries sigma = -rho c v", 
 TEST_CASE("The energy balance closes to rounding, with plastic flow, damping, gravity, a lid, forces and a share",
           "[fe]")
 {
-  ExplicitBody body = Everything::make();
+  const Hourglass hourglass = GENERATE(Hourglass::at_points, Hourglass::bending);
+  ExplicitBody body = Everything::make(true, hourglass);
   const double dt = 0.8 * stable_step(body).time_step;
   double worst = 0, scale = 0;
   int plastic_steps = 0;
@@ -178,7 +180,7 @@ TEST_CASE("The energy balance closes to rounding, with plastic flow, damping, gr
     scale = std::max({scale, std::abs(e.boundary_work), e.kinetic, e.elastic});
     worst = std::max(worst, std::abs(e.residual()));
     for (std::size_t k = 0; k < body.n_elements(); ++k)
-      if (dynamic_cast<const SmallStrainHexahedra<MohrCoulomb> &>(body.elements()).sector(k, 0) != Sector::elastic)
+      if (dynamic_cast<const SmallStrainElements<MohrCoulomb> &>(body.elements()).sector(k, 0) != Sector::elastic)
       {
         ++plastic_steps;
         break;
@@ -198,11 +200,12 @@ TEST_CASE("The energy balance closes to rounding, with plastic flow, damping, gr
 
 TEST_CASE("The same bits on 1, 2 and 3 threads", "[fe]")
 {
+  const Hourglass hourglass = GENERATE(Hourglass::at_points, Hourglass::bending);
   std::vector<ExplicitBody> bodies;
   for (int n = 1; n <= 3; ++n)
   {
     const Threads team(n);
-    bodies.push_back(Everything::make());
+    bodies.push_back(Everything::make(true, hourglass));
     const double dt = 0.8 * stable_step(bodies.back()).time_step;
     for (int step = 0; step < 300; ++step)
       Everything::step(bodies.back(), step, dt);
@@ -213,7 +216,9 @@ TEST_CASE("The same bits on 1, 2 and 3 threads", "[fe]")
 
 TEST_CASE("A restored state goes on with the same bits", "[fe]")
 {
-  ExplicitBody through = Everything::make(), restored = Everything::make();
+  const Hourglass hourglass = GENERATE(Hourglass::at_points, Hourglass::bending);
+  const auto make = [&] { return Everything::make(true, hourglass); };
+  ExplicitBody through = make(), restored = make();
   const double dt = 0.8 * stable_step(through).time_step;
   for (int step = 0; step < 200; ++step)
     Everything::step(through, step, dt);

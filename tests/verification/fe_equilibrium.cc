@@ -3,6 +3,7 @@
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 #include "fe_dealii/stable_step.h"
+#include "tests/solid_shapes.h"
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
@@ -67,7 +68,7 @@ TEST_CASE("ground at rest under its K0 stress is in equilibrium as it is", "[fe]
   const MohrCoulombParameters sand{.young_modulus = 40e6, .poisson_ratio = 0.3, .friction_angle = 30, .density = 1800};
   ExplicitBodyParameters parameters;
   parameters.material = MohrCoulomb(sand);
-  parameters.degree = GENERATE(1u, 2u);
+  set_shape(parameters, GENERATE(Shape::plain, Shape::bending, Shape::quadratic));
   parameters.gravity = {0, 0, -gravity};
   parameters.initial_stress = geostatic_stress({.surface_height = 4,
                                                 .unit_weight = sand.density * gravity,
@@ -96,7 +97,7 @@ TEST_CASE("an elastic column settles by rho g H^2 / 2M at its top, whichever sol
   const ElasticParameters rock{.young_modulus = 1e7, .poisson_ratio = 0.25, .density = 2000};
   ExplicitBodyParameters parameters;
   parameters.material = LinearElastic(rock);
-  parameters.degree = GENERATE(1u, 2u);
+  set_shape(parameters, GENERATE(Shape::plain, Shape::bending, Shape::quadratic));
   parameters.gravity = {0, 0, -gravity};
   EquilibriumParameters equilibrium;
   equilibrium.direct_limit = GENERATE(0, 100000);
@@ -164,9 +165,11 @@ TEST_CASE("the preconditioner of a slender body knows that its parts turn", "[fe
 TEST_CASE("a path that is cut goes on from the state at each cut", "[fe]")
 {
   // Sand that flows while it is sheared: its stresses depend on the increments in which it gets there.
-  const auto make = []
+  const Shape shape = GENERATE(Shape::plain, Shape::bending);
+  const auto make = [&]
   {
     ExplicitBodyParameters parameters;
+    set_shape(parameters, shape);
     parameters.material = MohrCoulomb(
         {.young_modulus = 2e7, .poisson_ratio = 0.3, .friction_angle = 30, .dilation_angle = 5, .cohesion = 1e3});
     parameters.initial_stress = [](const std::array<double, 3> &) { return Stress{-5e4, -6e4, -1e5, 0, 0, 0}; };
@@ -229,6 +232,7 @@ TEST_CASE("a cut in cohesive ground stands with plastic flow at its foot, and fa
   // A vertical cut stands up to a height between 3.77 and 3.83 c/γ (Lyamin and Sloan 2002; Pastor et al. 2009).
   const double cohesion = 10e3, density = 2000, height = GENERATE(3.0, 4.5) * cohesion / (density * gravity);
   ExplicitBodyParameters parameters;
+  set_shape(parameters, GENERATE(Shape::plain, Shape::bending));
   parameters.material = MohrCoulomb({.young_modulus = 2e7,
                                      .poisson_ratio = 0.3,
                                      .friction_angle = 0,
@@ -272,7 +276,7 @@ TEST_CASE("a rubber block hangs in equilibrium at large strain", "[fe]")
 {
   ExplicitBodyParameters parameters;
   parameters.material = NeoHooke({.young_modulus = 1e5, .poisson_ratio = 0.45, .density = 1100});
-  parameters.degree = GENERATE(1u, 2u);
+  set_shape(parameters, GENERATE(Shape::plain, Shape::bending, Shape::quadratic));
   parameters.gravity = {0, 0, -gravity};
   ExplicitBody body = box({{0, 0, 0}, {0.5, 0.5, 2}, {2, 2, 6}}, parameters);
   for (unsigned int component = 0; component < 3; ++component)

@@ -4,6 +4,7 @@
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/material/hypoplastic_integration.h"
 #include "fe_dealii/stable_step.h"
+#include "tests/solid_shapes.h"
 
 #include <catch2/catch.hpp>
 
@@ -40,13 +41,13 @@ double last_order(const std::vector<double> &residual)
 TEST_CASE("hypoplastic sand: one element in a drained triaxial test by Newton's method is the point", "[fe]")
 {
   constexpr double pressure = 100e3, step = 1e-3;
-  const unsigned int degree = GENERATE(1u, 2u);
+  const Shape shape = GENERATE(Shape::plain, Shape::bending, Shape::quadratic);
   const double void_ratio = GENERATE(0.60, 0.85);
-  CAPTURE(degree, void_ratio);
+  CAPTURE(static_cast<int>(shape), void_ratio);
   const HypoplasticSand sand(sand_of(void_ratio));
   ExplicitBodyParameters parameters;
   parameters.material = sand;
-  parameters.degree = degree;
+  set_shape(parameters, shape);
   parameters.initial_stress = uniform_pressure(pressure);
   ExplicitBody body = make_box_body({{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}, parameters);
   body.prescribe_velocity(5, 2, -step);
@@ -95,8 +96,8 @@ struct Strip
   ExplicitBody body;
   MovingBody::Constraint settlement;
 
-  explicit Strip(const unsigned int degree, const double damping = 0)
-      : body(make_box_body({{0, 0, -1}, {2, 0.25, 0}, {8, 1, 4}}, parameters(degree, damping))), settlement(0)
+  explicit Strip(const Shape shape, const double damping = 0)
+      : body(make_box_body({{0, 0, -1}, {2, 0.25, 0}, {8, 1, 4}}, parameters(shape, damping))), settlement(0)
   {
     for (const unsigned int node : body.boundary_nodes(5))
       if (body.node_position()[node][0] < 0.51)
@@ -114,12 +115,12 @@ struct Strip
   double force() const { return -body.reaction(settlement); } ///< of the strip on the ground, beyond the surcharge [N]
 
 private:
-  static ExplicitBodyParameters parameters(const unsigned int degree, const double damping)
+  static ExplicitBodyParameters parameters(const Shape shape, const double damping)
   {
     const HypoplasticSand sand(sand_of(0.65));
     ExplicitBodyParameters p;
     p.material = sand;
-    p.degree = degree;
+    set_shape(p, shape);
     p.damping = damping;
     p.gravity = {0, 0, -9.81};
     p.initial_stress =
@@ -134,7 +135,7 @@ private:
 
 TEST_CASE("hypoplastic sand: under a strip Newton's method is of second order", "[fe]")
 {
-  Strip strip(GENERATE(1u, 2u));
+  Strip strip(GENERATE(Shape::plain, Shape::bending, Shape::quadratic));
   strip.body.set_velocity(strip.settlement, -5e-4);
   for (int k = 0; k < 4; ++k)
   {
@@ -149,7 +150,8 @@ TEST_CASE("hypoplastic sand: under a strip Newton's method is of second order", 
 TEST_CASE("hypoplastic sand: a slow explicit run under a strip comes to the static path", "[fe]")
 {
   constexpr double settlement = 2e-3;
-  Strip at_rest(1), moving(1, 100);
+  const Shape shape = GENERATE(Shape::plain, Shape::bending);
+  Strip at_rest(shape), moving(shape, 100);
   at_rest.body.set_velocity(at_rest.settlement, -settlement / 10);
   for (int k = 0; k < 10; ++k)
     find_equilibrium(at_rest.body, {.duration = 1});

@@ -110,11 +110,14 @@ TEST_CASE("27 nodes: pure bending is exact, one element over the depth and nearl
 
 TEST_CASE("a sand whose stiffness grows with the pressure keeps the account of its energy", "[fe]")
 {
-  for (const unsigned int degree : {1u, 2u})
+  for (const auto &[degree, hourglass] :
+       {std::pair(1u, Hourglass::at_points), {1u, Hourglass::bending}, {2u, Hourglass::at_points}})
   {
+    CAPTURE(degree, hourglass == Hourglass::bending);
     ExplicitBodyParameters parameters;
     parameters.material = MohrCoulomb({.young_modulus = 60e6, .reference_pressure = 1e5});
     parameters.degree = degree;
+    parameters.hourglass = hourglass;
     parameters.initial_stress = uniform_pressure(2e4);
     ExplicitBody body = body_of({{0, 0, 0}, {1, 1, 1}, {4, 4, 3}}, parameters, 0.15);
     for (unsigned int id = 0; id < 5; ++id)

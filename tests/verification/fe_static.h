@@ -8,9 +8,9 @@
 #include <span>
 
 /// Brings an elastic body to rest. @param load nodal forces [N]; @param prescribed displacements by dof,
-/// 3 node + component, which stay held [m]
+/// 3 node + component, which stay held [m]; @param tolerance some roundings of a slender body
 inline void bring_to_rest(bergamo::fe::ExplicitBody &body, const std::span<const double> load,
-                          const std::map<unsigned int, double> &prescribed)
+                          const std::map<unsigned int, double> &prescribed, const double tolerance = 1e-11)
 {
   for (const auto &[dof, displacement] : prescribed)
   {
@@ -18,6 +18,6 @@ inline void bring_to_rest(bergamo::fe::ExplicitBody &body, const std::span<const
     body.prescribe_velocity(node, dof % 3, displacement); // over one second
   }
   std::copy(load.begin(), load.end(), body.external_force().begin());
-  bergamo::fe::find_equilibrium(body, {.tolerance = 1e-11, .duration = 1}); // some roundings of a slender body
+  bergamo::fe::find_equilibrium(body, {.tolerance = tolerance, .duration = 1});
   body.clear_external_force();
 }

@@ -115,8 +115,12 @@ TEST_CASE("ground at rest under its K0 stress on a distorted mesh starts and sta
 {
   const MohrCoulombParameters sand{.young_modulus = 40e6, .poisson_ratio = 0.3, .friction_angle = 30, .density = 1800};
   const unsigned int degree = GENERATE(1u, 2u);
-  CAPTURE(degree);
+  const bool bends = GENERATE(false, true);
+  if (degree == 2 && bends)
+    return;
+  CAPTURE(degree, bends);
   ExplicitBodyParameters parameters = heavy(MohrCoulomb(sand), degree);
+  parameters.hourglass = bends ? Hourglass::bending : Hourglass::at_points;
   parameters.initial_stress = geostatic_stress(
       {.surface_height = 4, .unit_weight = sand.density * gravity, .earth_pressure_at_rest = 0.5, .surcharge = 5e3});
   ExplicitBody body = distorted_box({{0, 0, 0}, {2, 3, 4}, {2, 3, 4}}, parameters);
