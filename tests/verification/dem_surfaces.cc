@@ -98,8 +98,9 @@ TEST_CASE("a grain on triangles of one plane moves as on the plane")
         most = std::max(most, (on_mesh.particles.position[0] - grains.position[0]).norm());
       }
       INFO(n << " squares a side, exponents " << shape.eps1 << ", " << shape.eps2);
-      // A superquadric that goes over an edge makes that step at once, one on the plane is followed and corrected.
-      const double share = shape.is_sphere() ? 1e-9 : 1e-4;
+      // A superquadric near an edge is searched more often than on the plane, where it is followed: 1.2e-8 mm was
+      // found.
+      const double share = shape.is_sphere() ? 1e-9 : 1e-6;
       CHECK(farthest < share * mm);
       CHECK(most > 0.5 * mm);
       const std::vector<Vec3> forces = on_mesh.node_forces(0);

@@ -13,6 +13,9 @@ namespace bergamo::dem
 namespace
 {
 
+/// What makes a contact due, and no more: it has been followed well, however far beyond its face.
+constexpr double all_of_budget = 1.5;
+
 /// As WallMotion, of a part against features that turn, and that are flat in all directions (faces), in one (edges) or
 /// in none (vertices), elsewhere sharp. What the deepest point has come nearer to the borders of its face since the
 /// last search wears, too.
@@ -48,7 +51,7 @@ struct FeatureMotion : WallMotion<Real>
     const Vector2<Real> slip = in_frame(frame, Vector3<Real>(turn.shift - this->velocity * dt));
     turn.wear = math::sqrt(squared_wear(s.wear1, of_body1)) +
                 s.twist_wear * math::abs(half * (about_normal2 - about_normal1)) +
-                math::sqrt(slip.squaredNorm()) * s.radii2.r11; // the inverse of what it may go
+                math::min(Real(math::sqrt(slip.squaredNorm()) * s.radii2.r11), Real(all_of_budget));
     const Vector3<Real> displacement = at_old_point + (turn2 - turn1).cross(turn.shift) * half;
     Vector3<Real> seen;
     seen << in_frame(frame, displacement), s.normal.dot(displacement);
