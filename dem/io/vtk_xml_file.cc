@@ -75,7 +75,8 @@ VtkXmlFile::VtkXmlFile(const std::filesystem::path &path, const std::string_view
   {
     const std::size_t end_of_tag = content.find('>', start), mark = content.find('_', end_of_tag),
                       end = content.rfind("</AppendedData>");
-    if (mark == std::string::npos || end == std::string::npos || end < mark)
+    if (mark == std::string::npos || end == std::string::npos || end < mark ||
+        content.find("</VTKFile>", end) == std::string::npos)
       reject_surface_file(path, "its AppendedData has no end after ", content.size(),
                           " bytes: it is truncated; write it again");
     appended = content.substr(mark + 1, end - mark - 1);
@@ -172,15 +173,16 @@ std::string VtkXmlFile::bytes_of(const std::string_view source, const bool is_ba
   std::size_t packed_size = 0;
   for (std::size_t b = 0; b < n_blocks; ++b)
     packed_size += std::min(word(sizes, own_words + b), largest);
-  if (block_size > largest || rest > block_size || packed_size > largest)
-    damaged("its blocks claim ", block_size, " bytes, packed in ", packed_size);
+  const std::uint64_t last_size = rest > 0 ? rest : block_size;
+  if (last_size > std::min(largest, block_size) || packed_size > source.size() ||
+      (n_blocks > 1 && block_size > largest / (n_blocks - 1)))
+    damaged("its ", n_blocks, " blocks claim ", block_size, " bytes each, packed in ", packed_size);
   const std::string packed = first(head + packed_size);
   std::string bytes;
   std::size_t at = head;
   for (std::size_t b = 0; b < n_blocks; ++b)
   {
-    const bool is_last = b + 1 == n_blocks;
-    uLongf size = is_last && rest > 0 ? rest : block_size;
+    uLongf size = b + 1 == n_blocks ? last_size : block_size;
     const std::uint64_t size_in_file = word(sizes, own_words + b);
     std::string block(size, '\0');
     if (uncompress(reinterpret_cast<Bytef *>(block.data()), &size, reinterpret_cast<const Bytef *>(packed.data() + at),
