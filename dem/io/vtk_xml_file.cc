@@ -12,15 +12,25 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <limits>
+#include <iterator>
 #include <sstream>
+#include <utility>
 
 namespace bergamo::dem
 {
 namespace
 {
 
-constexpr const char *spaces = " \t\r\n";
+bool is_space(const char c)
+{
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+std::string without_spaces(std::string text)
+{
+  std::erase_if(text, is_space);
+  return text;
+}
 
 /// The first bytes of base64, or all where there are fewer. It may be several pieces, each with its padding.
 std::string decoded(std::string_view text, const std::size_t n_bytes)
@@ -101,19 +111,15 @@ VtkXmlFile::VtkXmlFile(const std::filesystem::path &path, const std::string_view
     reject_surface_file(path, "it has no element ", type, "; write it again");
   const std::string order = file->get("<xmlattr>.byte_order", "LittleEndian");
   if ((order == "LittleEndian") != (std::endian::native == std::endian::little))
-    reject_surface_file(path, "its byte_order is ", order, ", not this machine's; write it as text (ascii)");
-  const std::string compressor = file->get("<xmlattr>.compressor", "");
-  is_compressed = !compressor.empty();
-  if (is_compressed && compressor != "vtkZLibDataCompressor")
-    reject_surface_file(path, "it is compressed by ", compressor,
-                        "; write it without compression or by ZLib (vtkZLibDataCompressor)");
+    reject_surface_file(path, "its byte_order is ", order, ", not this machine's; write it again on one of its kind");
+  compressor = file->get("<xmlattr>.compressor", "");
   if (file->get("<xmlattr>.header_type", "UInt32") == "UInt64")
     word_size = 8;
   if (const auto data = file->get_child_optional("AppendedData"))
   {
     appended_is_base64 = data->get("<xmlattr>.encoding", "base64") == "base64";
     if (appended_is_base64)
-      std::erase_if(appended, [](const char c) { return std::strchr(spaces, c) != nullptr; });
+      appended = without_spaces(std::move(appended));
   }
 }
 
@@ -135,7 +141,7 @@ std::size_t VtkXmlFile::count(const Element &element, const std::string &name) c
   return n;
 }
 
-std::string VtkXmlFile::bytes_of(const std::string_view source, const bool is_base64, const std::string &name) const
+std::string VtkXmlFile::unpacked(const std::string_view source, const bool is_base64, const std::string &name) const
 {
   const auto damaged = [&](const auto &...reason)
   { reject_surface_file(path, "its array ", name, " is damaged: ", reason..., "; write it again"); };
@@ -154,17 +160,20 @@ std::string VtkXmlFile::bytes_of(const std::string_view source, const bool is_ba
   };
   // Data packed by zlib are at most 1032 times larger than what they are packed in.
   const std::uint64_t largest = 1032 * (source.size() + 1);
-  if (!is_compressed)
+  if (compressor.empty())
   {
     const std::uint64_t size = word(first(word_size), 0);
     if (size > largest)
       damaged("it claims ", size, " bytes");
     return first(word_size + size).substr(word_size);
   }
+  if (compressor != "vtkZLibDataCompressor")
+    reject_surface_file(path, "it is compressed by ", compressor,
+                        "; write it without compression or by ZLib (vtkZLibDataCompressor)");
   const std::uint64_t n_blocks = word(first(word_size), 0);
   if (n_blocks == 0)
     return {};
-  if (n_blocks > largest)
+  if (n_blocks > source.size())
     damaged("it claims ", n_blocks, " blocks");
   constexpr std::size_t own_words = 3; // before the sizes of the blocks
   const std::size_t head = (own_words + n_blocks) * word_size;
@@ -195,56 +204,55 @@ std::string VtkXmlFile::bytes_of(const std::string_view source, const bool is_ba
   return bytes;
 }
 
-std::vector<double> VtkXmlFile::numbers(const Element &array) const
+std::vector<double> VtkXmlFile::numbers_of_text(const Element &array, const std::string &name) const
 {
-  const std::string name = array.get("<xmlattr>.Name", "Points"), format = array.get("<xmlattr>.format", "ascii");
-  const std::string type_name = attribute(array, "type");
-  if (format == "ascii")
+  std::vector<double> numbers;
+  const std::string &text = array.data();
+  const char *at = text.data(), *const end = at + text.size();
+  while ((at = std::find_if_not(at, end, is_space)) != end)
   {
-    std::vector<double> numbers;
-    const std::string &text = array.data();
-    const char *at = text.data(), *const end = at + text.size();
-    while ((at = std::find_if(at, end, [](const char c) { return std::strchr(spaces, c) == nullptr; })) != end)
-    {
-      const auto [stop, error] = std::from_chars(at, end, numbers.emplace_back());
-      if (error != std::errc())
-        reject_surface_file(path, "entry ", numbers.size() - 1, " of its array ", name,
-                            " is no number; write it again");
-      at = stop;
-    }
-    return numbers;
+    const auto [stop, error] = std::from_chars(at, end, numbers.emplace_back());
+    if (error != std::errc())
+      reject_surface_file(path, "entry ", numbers.size() - 1, " of its array ", name, " is no number; write it again");
+    at = stop;
   }
-  const auto type = std::find_if(std::begin(number_types), std::end(number_types),
-                                 [&](const NumberType &t) { return t.name == type_name; });
-  if (type == std::end(number_types))
-    reject_surface_file(path, "its array ", name, " has numbers of type ", type_name,
-                        ", which is not known; write them as Float64 or Int64");
-  std::string bytes;
+  return numbers;
+}
+
+std::string VtkXmlFile::bytes_of(const Element &array, const std::string &name) const
+{
   try
   {
-    if (format == "appended")
-    {
-      const std::size_t offset = count(array, "offset");
-      if (offset >= appended.size())
-        reject_surface_file(path, "its array ", name, " begins at byte ", offset, " of ", appended.size(),
-                            ": it is truncated; write it again");
-      bytes = bytes_of(std::string_view(appended).substr(offset), appended_is_base64, name);
-    }
-    else
-    {
-      std::string text = array.data();
-      std::erase_if(text, [](const char c) { return std::strchr(spaces, c) != nullptr; });
-      bytes = bytes_of(text, true, name);
-    }
+    if (array.get("<xmlattr>.format", "") != "appended")
+      return unpacked(without_spaces(array.data()), true, name);
+    const std::size_t offset = count(array, "offset");
+    if (offset >= appended.size())
+      reject_surface_file(path, "its array ", name, " begins at byte ", offset, " of ", appended.size(),
+                          ": it is truncated; write it again");
+    return unpacked(std::string_view(appended).substr(offset), appended_is_base64, name);
   }
   catch (const boost::archive::iterators::dataflow_exception &)
   {
     reject_surface_file(path, "its array ", name, " is no base64; write it again");
   }
-  if (bytes.size() % type->size != 0)
+}
+
+std::vector<double> VtkXmlFile::numbers(const Element &array) const
+{
+  const std::string name = array.get("<xmlattr>.Name", "Points");
+  if (array.get("<xmlattr>.format", "ascii") == "ascii")
+    return numbers_of_text(array, name);
+  const std::string type_name = attribute(array, "type");
+  const auto number_type = std::find_if(std::begin(number_types), std::end(number_types),
+                                        [&](const NumberType &t) { return t.name == type_name; });
+  if (number_type == std::end(number_types))
+    reject_surface_file(path, "its array ", name, " has numbers of type ", type_name,
+                        ", which is not known; write them as Float64 or Int64");
+  const std::string bytes = bytes_of(array, name);
+  if (bytes.size() % number_type->size != 0)
     reject_surface_file(path, "its array ", name, " has ", bytes.size(), " bytes, no whole number of ", type_name,
                         "; write it again");
-  return type->read(bytes);
+  return number_type->read(bytes);
 }
 
 } // namespace bergamo::dem
