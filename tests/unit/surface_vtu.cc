@@ -142,8 +142,9 @@ TEST_CASE("contacts on edges and vertices are shared by halves and by angles")
   CHECK(on_edge.traction[0].z() == Approx(-on_edge.pressure[0]).epsilon(1e-9));
 
   const dem::Surface box = in_millimetres(cube());
-  const Vec3 outwards = Vec3(1., 1., 1.).normalized();
-  const Simulation s = with_ball({box}, mm * Vec3(1., 1., 1.) + (radius - overlap) * outwards);
+  constexpr std::int32_t corner = 3;
+  const Vec3 outwards = box.node[corner].normalized();
+  const Simulation s = with_ball({box}, box.node[corner] + (radius - overlap) * outwards);
   const std::vector<TouchingContact> contacts = s.contacts.touching_walls(s.particles);
   REQUIRE(contacts.size() == 1);
   const double whole = contacts[0].state.forces.normal;
@@ -153,7 +154,7 @@ TEST_CASE("contacts on edges and vertices are shared by halves and by angles")
   {
     // Each side of the cube has a right angle at the corner, in one triangle or in two halves.
     const Triangle &corners = box.topology.triangle[t];
-    const auto at = std::find(corners.begin(), corners.end(), 7) - corners.begin();
+    const auto at = std::find(corners.begin(), corners.end(), corner) - corners.begin();
     const double part = on_vertex.pressure[t] * area_of(box, t) / whole;
     sum += part;
     if (at == 3)
@@ -161,7 +162,7 @@ TEST_CASE("contacts on edges and vertices are shared by halves and by angles")
       CHECK(part == 0.);
       continue;
     }
-    const Vec3 a = box.node[corners[(at + 1) % 3]] - box.node[7], b = box.node[corners[(at + 2) % 3]] - box.node[7];
+    const Vec3 a = box.node[corners[(at + 1) % 3]] - box.node[corner], b = box.node[corners[(at + 2) % 3]] - box.node[corner];
     CHECK(part == Approx(a.normalized().dot(b.normalized()) > 0.5 ? 1. / 6. : 1. / 3.).epsilon(1e-12));
   }
   CHECK(sum == Approx(1.).epsilon(1e-12));
