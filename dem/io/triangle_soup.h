@@ -1,9 +1,8 @@
 #pragma once
 
 #include "dem/core/error.h"
-#include "dem/geometry/surface_topology.h"
-
 #include "dem/core/types.h"
+#include "dem/geometry/surface_topology.h"
 
 #include <filesystem>
 #include <string>
@@ -29,7 +28,7 @@ template <class... Parts>
 /// All bytes of a file. Throws ConfigError for one that is missing, not to be read, or empty.
 std::string surface_file_content(const std::filesystem::path &path);
 
-/// @param text "(x, y, z)"
+/// "(x, y, z)".
 std::string place_text(const Vec3 &place);
 
 } // namespace bergamo::dem
