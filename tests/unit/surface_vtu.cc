@@ -162,7 +162,8 @@ TEST_CASE("contacts on edges and vertices are shared by halves and by angles")
       CHECK(part == 0.);
       continue;
     }
-    const Vec3 a = box.node[corners[(at + 1) % 3]] - box.node[corner], b = box.node[corners[(at + 2) % 3]] - box.node[corner];
+    const Vec3 a = box.node[corners[(at + 1) % 3]] - box.node[corner],
+               b = box.node[corners[(at + 2) % 3]] - box.node[corner];
     CHECK(part == Approx(a.normalized().dot(b.normalized()) > 0.5 ? 1. / 6. : 1. / 3.).epsilon(1e-12));
   }
   CHECK(sum == Approx(1.).epsilon(1e-12));
