@@ -30,6 +30,7 @@ struct ContactScene
   const ContactParameters &parameters;
   double time_step; ///< of the drift that led here [s]
   std::span<const Surface> surfaces = {};
+  double surface_motion = 0.; ///< paths that the nodes of all surfaces have not exceeded since the start, added up [m]
 
   BodyCount bodies() const { return {particles.size(), walls.size()}; }
 };

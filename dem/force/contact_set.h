@@ -43,8 +43,9 @@ public:
   /// candidates must be renewed afterwards. @param n_parts that stay
   void reorder(const std::vector<std::int32_t> &new_part, std::size_t n_parts);
 
-  /// Drops all contacts of one wall at the next renewal, whose history is then booked as loss; later walls move up.
-  void remove_wall(std::int32_t wall) requires Kind::second_is_wall;
+  /// Drops all contacts of n walls or features at the next renewal, whose history is then booked as loss; later ones
+  /// move up.
+  void remove_walls(std::int32_t first, std::int32_t n) requires Kind::second_is_wall;
 
   /// Brings every contact to this step.
   void compute(const ContactScene &scene, PhaseTimes &times);
@@ -117,6 +118,8 @@ private:
   ContactSearch place_of(std::int32_t pair, const Particles &particles) const;
   void list_bodies(const BodyCount &count);
   std::vector<std::int32_t> screen(const ContactScene &scene);
+  std::vector<std::int32_t> with_heirs(const std::vector<std::int32_t> &due_slots, const Found &found,
+                                       std::vector<std::int32_t> candidates) const;
   Found search(const std::vector<std::int32_t> &due_slots, const std::vector<std::int32_t> &candidates,
                const ContactScene &scene);
   void take_up(const Found &found, const ContactScene &scene);
@@ -127,7 +130,8 @@ private:
   VerletList list;
   std::vector<std::int32_t> slot; ///< of each candidate in `store`, or `apart`
   /// A pair apart cannot touch before the motions of both bodies add up to this [m]: it is left alone until then, which
-  /// is exact. Infinite for a touching pair, which screening has not to look at.
+  /// is exact. Infinite for a touching pair, which screening has not to look at, and for one that a contact of its part
+  /// guards until that is searched.
   std::vector<double> rest_until;
   std::vector<typename Kind::Hint> hint;
   typename Kind::Store store;

@@ -3,6 +3,7 @@
 #include "dem/force/contact_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -51,7 +52,8 @@ void ContactSet<Kind>::renew(VerletList new_list, const Particles &particles)
                         if (old_pair < old_end && list.second[old_pair] == new_list.second[pair])
                         {
                           new_slot[pair] = slot[old_pair];
-                          new_rest[pair] = rest_until[old_pair];
+                          const bool is_guarded = slot[old_pair] == apart && std::isinf(rest_until[old_pair]);
+                          new_rest[pair] = is_guarded ? no_rest : rest_until[old_pair]; // its guard may leave
                           new_hint[pair] = hint[old_pair];
                           ++old_pair;
                         }
@@ -163,13 +165,13 @@ void ContactSet<Kind>::reorder(const std::vector<std::int32_t> &new_part, const 
 }
 
 template <class Kind>
-void ContactSet<Kind>::remove_wall(const std::int32_t wall) requires Kind::second_is_wall
+void ContactSet<Kind>::remove_walls(const std::int32_t first, const std::int32_t n) requires Kind::second_is_wall
 {
   for (std::int32_t &second : list.second)
-    if (second == wall)
-      second = -1; // no wall has this number: the next renewal drops the contact
-    else if (second > wall)
-      --second;
+    if (second >= first + n)
+      second -= n;
+    else if (second >= first)
+      second = -1; // none has this number: the next renewal drops the contact
 }
 
 } // namespace bergamo::dem

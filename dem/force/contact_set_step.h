@@ -4,6 +4,7 @@
 #include "dem/force/follow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -38,7 +39,8 @@ void ContactSet<Kind>::compute(const ContactScene &scene, PhaseTimes &times)
   };
   if constexpr (Kind::takes_over)
   {
-    const Found ended = search(due_slots, {}, scene), begun = search({}, candidates, scene);
+    const Found ended = search(due_slots, {}, scene),
+                begun = search({}, with_heirs(due_slots, ended, candidates), scene);
     take_up(ended, scene);
     take_up(begun, scene);
     finish(begun);
@@ -88,6 +90,26 @@ std::vector<std::int32_t> ContactSet<Kind>::screen(const ContactScene &scene)
     if (!(travelled(pair) < rest_until[pair]))
       look_at(most_parts() - 1, pair);
   return candidates.all();
+}
+
+/// Candidates, and the pairs apart of parts that had a contact searched: those that rested because of it, and all where
+/// it has ended, which may take over from it.
+template <class Kind>
+std::vector<std::int32_t> ContactSet<Kind>::with_heirs(const std::vector<std::int32_t> &due_slots, const Found &found,
+                                                       std::vector<std::int32_t> candidates) const
+{
+  const auto add = [&](const std::int32_t part, const auto &is_wanted)
+  {
+    for (auto pair = list.row[part]; pair < list.row[part + 1]; ++pair)
+      if (slot[pair] == apart && is_wanted(pair))
+        candidates.push_back(static_cast<std::int32_t>(pair));
+  };
+  for (const std::int32_t due : due_slots)
+    add(list.first[store.pair[due]], [&](const auto pair) { return std::isinf(rest_until[pair]); });
+  found.ended.for_each([&](const ContactSearch &s) { add(s.first_part, [](const auto) { return true; }); });
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  return candidates;
 }
 
 /// Searches the contacts that are due, and then the candidates among the pairs apart.

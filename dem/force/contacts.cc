@@ -74,15 +74,27 @@ void Contacts::reorder(const std::vector<std::int32_t> &part_order, const std::s
 void Contacts::remove_wall(const std::int32_t wall)
 {
   for (ContactSet<GrainPlane> &set : grain_plane)
-    set.remove_wall(wall);
+    set.remove_walls(wall, 1);
+}
+
+void Contacts::remove_features(const std::int32_t first, const std::int32_t n)
+{
+  for (ContactSet<GrainSurface> &set : grain_surface)
+    set.remove_walls(first, n);
 }
 
 void Contacts::compute(const Particles &particles, const std::vector<PlaneWall> &walls, const ContactStep &step,
                        PhaseTimes &times)
 {
+  double surface_motion = 0.;
+  for (const Surface &surface : step.surfaces)
+    surface_motion += surface.motion;
   for_each_set(*this,
-               [&](auto &set, const std::int32_t law) {
-                 set.compute({particles, walls, step.laws[law], step.parameters, step.time_step, step.surfaces}, times);
+               [&](auto &set, const std::int32_t law)
+               {
+                 set.compute(
+                     {particles, walls, step.laws[law], step.parameters, step.time_step, step.surfaces, surface_motion},
+                     times);
                });
 }
 

@@ -65,6 +65,9 @@ public:
   /// Drops all contacts of one wall at the next renewal; later walls move up by one.
   void remove_wall(std::int32_t wall);
 
+  /// The same of features, counted as feature_of() does.
+  void remove_features(std::int32_t first, std::int32_t n);
+
   /// Brings every contact to this step.
   void compute(const Particles &particles, const std::vector<PlaneWall> &walls, const ContactStep &step,
                PhaseTimes &times);

@@ -1,5 +1,6 @@
 #include "dem/core/parallel.h"
 #include "dem/force/candidates.h"
+#include "dem/geometry/nearest_point.h"
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
@@ -28,34 +29,6 @@ using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
 Point point(const Vec3 &x)
 {
   return {x[0], x[1], x[2]};
-}
-
-/// Nearest point of a triangle (Ericson 2005, Real-Time Collision Detection, 5.1.5).
-double distance(const Vec3 &p, const Vec3 &a, const Vec3 &b, const Vec3 &c)
-{
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0. && d2 <= 0.)
-    return ap.norm();
-  const Vec3 bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0. && d4 <= d3)
-    return bp.norm();
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0. && d1 >= 0. && d3 <= 0.)
-    return (ap - d1 / (d1 - d3) * ab).norm();
-  const Vec3 cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0. && d5 <= d6)
-    return cp.norm();
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0. && d2 >= 0. && d6 <= 0.)
-    return (ap - d2 / (d2 - d6) * ac).norm();
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0. && d4 >= d3 && d5 >= d6)
-    return (bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b)).norm();
-  const Vec3 normal = ab.cross(ac);
-  return std::abs(normal.dot(ap)) / normal.norm();
 }
 
 Tree tree_of(const std::span<const Surface> surfaces)
@@ -104,15 +77,21 @@ VerletList parts_near_surfaces(const Particles &p, const std::span<const Surface
                    const Surface &surface = surfaces[face.surface];
                    const SurfaceTopology &t = surface.topology;
                    const auto &[a, b, c] = t.triangle[face.number];
-                   if (!(distance(centre, surface.node[a], surface.node[b], surface.node[c]) < reach))
+                   const auto add_near = [&](const Vec3 &nearest, const std::size_t offset, const std::int32_t number)
+                   {
+                     const bool is_near = (nearest - centre).norm() < reach;
+                     if (is_near)
+                       near[k].push_back(face.first_feature + static_cast<std::int32_t>(offset) + number);
+                     return is_near;
+                   };
+                   const auto at = [&](const std::int32_t node) -> const Vec3 & { return surface.node[node]; };
+                   if (!add_near(nearest_on_triangle(centre, at(a), at(b), at(c)), 0, face.number))
                      continue;
-                   const auto add = [&](const std::size_t offset, const std::int32_t number)
-                   { near[k].push_back(face.first_feature + static_cast<std::int32_t>(offset) + number); };
-                   add(0, face.number);
                    for (int side = 0; side < 3; ++side)
                    {
-                     add(t.n_faces(), t.edge_of[face.number][side]);
-                     add(t.n_faces() + t.n_edges(), t.triangle[face.number][side]);
+                     const std::int32_t edge = t.edge_of[face.number][side], node = t.triangle[face.number][side];
+                     add_near(nearest_on_line(centre, at(t.edge[edge].from), at(t.edge[edge].to)), t.n_faces(), edge);
+                     add_near(at(node), t.n_faces() + t.n_edges(), node);
                    }
                  }
                  std::sort(near[k].begin(), near[k].end());

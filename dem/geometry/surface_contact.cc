@@ -1,8 +1,12 @@
 #include "dem/geometry/surface_contact.h"
 
+#include "dem/geometry/nearest_point.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace bergamo::dem
 {
@@ -35,7 +39,7 @@ const SurfaceLook::EdgeFoot &SurfaceLook::on_edge(const std::int32_t e)
 {
   const Triangle &t = surface.topology.triangle[f];
   const Vec3 &a = surface.node[t[0]];
-  const Vec3 normal = (surface.node[t[1]] - a).cross(surface.node[t[2]] - a).normalized();
+  const Vec3 normal = normal_of(f);
   FaceFoot found{f, foot_against(normal, a), {}, {}};
   for (int k = 0; k < 3; ++k)
   {
@@ -52,7 +56,10 @@ const SurfaceLook::EdgeFoot &SurfaceLook::on_edge(const std::int32_t e)
 bool SurfaceLook::is_inside(const std::int32_t f, const std::int32_t e)
 {
   const auto &its_edges = surface.topology.edge_of[f];
-  return on_face(f).is_inside[std::find(its_edges.begin(), its_edges.end(), e) - its_edges.begin()];
+  const auto k = std::find(its_edges.begin(), its_edges.end(), e) - its_edges.begin();
+  const FaceFoot &found = on_face(f);
+  least_margin = std::min(least_margin, std::abs(found.inside[k]));
+  return found.is_inside[k];
 }
 
 double SurfaceLook::distance_to_edges(const std::int32_t f)
@@ -73,13 +80,19 @@ int SurfaceLook::index_of_line(const std::int32_t e)
 bool SurfaceLook::is_beyond(const std::int32_t e, const std::int32_t node)
 {
   const EdgeFoot &found = on_edge(e);
-  return surface.topology.edge[e].from == node ? found.is_beyond_from : found.is_beyond_to;
+  const bool is_from = surface.topology.edge[e].from == node;
+  least_margin = std::min(least_margin, std::abs(is_from ? found.beyond_from : found.beyond_to));
+  return is_from ? found.is_beyond_from : found.is_beyond_to;
 }
 
 int SurfaceLook::index_of_face(const std::int32_t f)
 {
-  const auto &inside = on_face(f).is_inside;
-  return inside[0] && inside[1] && inside[2];
+  const FaceFoot &found = on_face(f);
+  const auto &[a, b, c] = found.inside;
+  const bool is_inside = found.is_inside[0] && found.is_inside[1] && found.is_inside[2];
+  const double least = std::min({a, b, c}); // outside, the edge that it is furthest beyond decides
+  least_margin = std::abs(least);
+  return is_inside;
 }
 
 int SurfaceLook::index_of_edge(const std::int32_t e)
@@ -104,6 +117,7 @@ int SurfaceLook::index_of_vertex(const std::int32_t node)
 
 int SurfaceLook::index_of(const Feature feature, const std::int32_t number)
 {
+  least_margin = std::numeric_limits<double>::infinity();
   switch (feature)
   {
   case Feature::face:
@@ -154,33 +168,24 @@ int SurfaceLook::index_of(const Feature feature, const std::int32_t number)
     angle = next;
   }
   const Vec3 deepest = body.position + foot.arm;
-  return {e, foot, along.dot(deepest - point) > 0., along.dot(deepest - surface.node[ends.to]) <= 0.};
+  const double from = along.dot(deepest - point), to = -along.dot(deepest - surface.node[ends.to]);
+  return {e, foot, from, to, from > 0., to >= 0.};
 }
 
-/// Newton on the sphere, or on the circle about a line, for the normal along which the body is least deep at a point,
-/// with steps that never raise it.
-/// @param guess unit vector; @param along unit vector of the line, or none
-SurfaceLook::Foot SurfaceLook::foot_at(const Vec3 &point, const Vec3 &guess, const Vec3 *along) const
+/// Newton on the sphere for the normal along which the body is least deep at a point, with steps that never raise it.
+/// @param guess unit vector
+SurfaceLook::Foot SurfaceLook::foot_at(const Vec3 &point, const Vec3 &guess) const
 {
-  const auto beside_line = [&](const Vec3 &v) -> Vec3 { return along ? Vec3(v - *along * along->dot(v)) : v; };
-  const Vec3 line = beside_line(body.position - point);
+  const Vec3 line = body.position - point;
   Vec3 normal = guess;
   constexpr int most = 100;
   for (int n = 0; n < most; ++n)
   {
-    TangentFrame frame = tangent_frame(normal);
-    if (along)
-      frame << along->cross(normal), *along;
+    const TangentFrame frame = tangent_frame(normal);
     const PlacedSupport<double> s = support(body, Vec3(-normal), frame);
     const double overlap = s.height - normal.dot(line);
-    Vec2 slope = -in_frame(frame, Vec3(line + s.arm));
+    const Vec2 slope = -in_frame(frame, Vec3(line + s.arm));
     CurvatureRadii<double> hessian = s.radii - overlap;
-    if (along)
-    {
-      slope[1] = 0.;
-      hessian.r22 = std::abs(hessian.r11);
-      hessian.r12 = 0.;
-    }
     const double mean = 0.5 * (hessian.r11 + hessian.r22);
     const double radius = std::hypot(0.5 * (hessian.r11 - hessian.r22), hessian.r12), low = mean - radius;
     const double least = 1e-6 * s.height;
@@ -196,7 +201,7 @@ SurfaceLook::Foot SurfaceLook::foot_at(const Vec3 &point, const Vec3 &guess, con
       const Vec3 trial = (normal + from_frame(frame, Vec2(step * share))).normalized();
       const PlacedSupport<double> t = support(body, Vec3(-trial));
       const double trial_overlap = t.height - trial.dot(line);
-      const Vec3 gap = beside_line(line + t.arm), beside = gap - trial * trial.dot(gap);
+      const Vec3 gap = line + t.arm, beside = gap - trial * trial.dot(gap);
       // To rounding it is flat near the minimum: there the smaller slope decides.
       is_better =
           trial_overlap < overlap || (trial_overlap <= overlap + 1e-15 * s.height && beside.norm() < slope.norm());
@@ -232,10 +237,10 @@ SurfaceLook::Foot SurfaceLook::foot_on_vertex(const std::int32_t node)
   std::sort(tried.begin(), tried.end(), is_less_deep);
   if (!(tried[0].overlap > 0.))
     return tried[0]; // apart
-  Foot least = foot_at(point, tried[0].normal, nullptr);
+  Foot least = foot_at(point, tried[0].normal);
   for (std::size_t k = 1; k < tried.size(); ++k)
     if ((tried[k].normal - tried[k - 1].normal).squaredNorm() > 1e-6)
-      if (const Foot other = foot_at(point, tried[k].normal, nullptr); other.overlap < least.overlap)
+      if (const Foot other = foot_at(point, tried[k].normal); other.overlap < least.overlap)
         least = other;
   return least;
 }
@@ -253,36 +258,91 @@ SurfaceLook::Foot SurfaceLook::foot_on(const Feature feature, const std::int32_t
   }
 }
 
-double SurfaceLook::gap_along(const Vec3 &normal, const std::span<const std::int32_t> nodes) const
+std::array<std::int32_t, 3> SurfaceLook::nodes_of(const Feature feature, const std::int32_t number) const
 {
-  double highest = -std::numeric_limits<double>::infinity();
-  for (const std::int32_t node : nodes)
-    highest = std::max(highest, normal.dot(surface.node[node] - body.position));
-  return -support(body, Vec3(-normal)).height - highest;
+  switch (feature)
+  {
+  case Feature::face:
+    return surface.topology.triangle[number];
+  case Feature::edge:
+  {
+    const SurfaceTopology::Edge &e = surface.topology.edge[number];
+    return {e.from, e.to, e.to};
+  }
+  default:
+    return {number, number, number};
+  }
 }
 
-double SurfaceLook::least_gap(const Feature feature, const std::int32_t number)
+Vec3 SurfaceLook::nearest_on(const Feature feature, const std::int32_t number, const Vec3 &point) const
+{
+  const auto node = [&](const std::int32_t n) -> const Vec3 & { return surface.node[n]; };
+  const auto n = nodes_of(feature, number);
+  switch (feature)
+  {
+  case Feature::face:
+    return nearest_on_triangle(point, node(n[0]), node(n[1]), node(n[2]));
+  case Feature::edge:
+    return nearest_on_line(point, node(n[0]), node(n[1]));
+  default:
+    return node(n[0]);
+  }
+}
+
+/// Newton's steps for the nearest points of feature and body, from the normal of a face or from the direction of the
+/// centre, whichever parts them more. Any direction gives a bound, so few steps do, and they need not converge.
+SeparatingDirection SurfaceLook::separation_from(const Feature feature, const std::int32_t number) const
+{
+  constexpr int most = 16;
+  constexpr double good_enough = 0.7;  // gap over the distance of two points that are no nearer than the nearest ones
+  constexpr double longest_step = 0.5; // [rad]
+  const auto nodes = nodes_of(feature, number);
+  const auto look_along = [&](const Vec3 &direction)
+  {
+    const PlacedSupport<double> s = support(body, Vec3(-direction), tangent_frame(direction));
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const std::int32_t node : nodes)
+      highest = std::max(highest, direction.dot(surface.node[node] - body.position));
+    return std::pair(s, SeparatingDirection{direction, -s.height - highest});
+  };
+  auto [s, best] = look_along(normal_beside(feature, number));
+  const Vec3 from_centre = body.position - nearest_on(feature, number, body.position);
+  if (from_centre.norm() > 0.)
+    if (const auto other = look_along(from_centre.normalized()); other.second.gap > best.gap)
+      std::tie(s, best) = other;
+  double share = 1.;
+  for (int n = 0; n < most && share > 0.05; ++n)
+  {
+    const Vec3 deepest = body.position + s.arm, line = deepest - nearest_on(feature, number, deepest);
+    if (best.gap > good_enough * line.norm())
+      break;
+    const double apart = std::max(1e-3 * s.height, best.gap);
+    const TangentFrame frame = tangent_frame(best.direction);
+    Vec2 step = (s.radii - -apart).solve(in_frame(frame, line));
+    step *= share * std::min(1., longest_step / step.norm());
+    const auto next = look_along((best.direction + from_frame(frame, step)).normalized());
+    if (next.second.gap > best.gap)
+      std::tie(s, best) = next;
+    else
+      share *= 0.5;
+  }
+  return best;
+}
+
+Vec3 SurfaceLook::normal_beside(const Feature feature, const std::int32_t number) const
 {
   const SurfaceTopology &t = surface.topology;
-  const auto beside_edge = [&](const std::int32_t e)
-  {
-    const SurfaceTopology::Edge &ends = t.edge[e];
-    const Vec3 along = (surface.node[ends.to] - surface.node[ends.from]).normalized();
-    const Vec3 &across = on_face(ends.left).foot.normal;
-    const Vec3 line = body.position - surface.node[ends.from], beside = (line - along * along.dot(line)).normalized();
-    const bool is_better =
-        foot_against(beside, surface.node[ends.from]).overlap < foot_against(across, surface.node[ends.from]).overlap;
-    return foot_at(surface.node[ends.from], is_better ? beside : across, &along);
-  };
-  if (feature == Feature::vertex)
-    return -foot_on_vertex(number).overlap;
-  if (feature == Feature::edge)
-    return -beside_edge(number).overlap;
-  double gap = -on_face(number).foot.overlap; // then along what parts the body from the edges that it is beyond
-  for (int k = 0; k < 3 && gap <= 0.; ++k)
-    if (!is_inside(number, t.edge_of[number][k]))
-      gap = std::max(gap, gap_along(beside_edge(t.edge_of[number][k]).normal, t.triangle[number]));
-  return gap;
+  const std::int32_t face = feature == Feature::face   ? number
+                            : feature == Feature::edge ? t.edge[number].left
+                                                       : t.corners_of(number)[0].face;
+  return normal_of(face);
+}
+
+Vec3 SurfaceLook::normal_of(const std::int32_t face) const
+{
+  const Triangle &t = surface.topology.triangle[face];
+  const Vec3 &a = surface.node[t[0]];
+  return (surface.node[t[1]] - a).cross(surface.node[t[2]] - a).normalized();
 }
 
 std::optional<SurfacePlace> SurfaceLook::place_at(const Feature feature, const std::int32_t number)

@@ -50,6 +50,13 @@ struct SurfacePlace
 /// Deeper than this share of its smallest half-axis a body touches nothing: features on its far side are that deep.
 inline constexpr double deepest_overlap = 0.5;
 
+/// A direction in which a body is apart from a feature.
+struct SeparatingDirection
+{
+  Vec3 direction = Vec3::Zero(); ///< unit, from the feature to the body
+  double gap = 0.;               ///< along it, a lower bound of the distance; <= 0 where none was found [m]
+};
+
 /// A surface at one moment.
 struct SurfaceView
 {
@@ -73,11 +80,17 @@ public:
   /// Index of the place at a feature, whether touched or not; 0 where there is none.
   int index_of(Feature feature, std::int32_t number);
 
-  /// A lower bound of the distance between body and feature, as a closed set of points; <= 0 says nothing [m].
-  double least_gap(Feature feature, std::int32_t number);
+  /// How far any of the deepest points that decided the last index_of() may go before it can be another [m].
+  double margin() const { return least_margin; }
+
+  /// What parts the body from a feature, as a closed set of points, along the best direction that a few steps find.
+  SeparatingDirection separation_from(Feature feature, std::int32_t number) const;
 
   /// Distance of the deepest point against a face from the lines of its edges, > 0 inside [m].
   double distance_to_edges(std::int32_t face);
+
+  /// Normal of a face that a feature belongs to.
+  Vec3 normal_beside(Feature feature, std::int32_t number) const;
 
 private:
   /// Where the body is deepest along a normal.
@@ -102,7 +115,8 @@ private:
   {
     std::int32_t edge;
     Foot foot;
-    bool is_beyond_from, is_beyond_to; ///< on the edge's side of its nodes
+    double beyond_from, beyond_to; ///< distance from its nodes, > 0 on the edge's side [m]
+    bool is_beyond_from, is_beyond_to;
   };
 
   Foot foot_on(Feature feature, std::int32_t number);
@@ -111,7 +125,7 @@ private:
   FaceFoot look_at_face(std::int32_t face) const;
   EdgeFoot look_at_edge(std::int32_t edge);
   Foot foot_on_vertex(std::int32_t node);
-  Foot foot_at(const Vec3 &point, const Vec3 &guess, const Vec3 *along) const;
+  Foot foot_at(const Vec3 &point, const Vec3 &guess) const;
   Foot foot_against(const Vec3 &normal, const Vec3 &point) const;
   bool is_inside(std::int32_t face, std::int32_t edge);
   bool is_beyond(std::int32_t edge, std::int32_t node);
@@ -119,10 +133,14 @@ private:
   int index_of_line(std::int32_t edge);
   int index_of_edge(std::int32_t edge);
   int index_of_vertex(std::int32_t node);
-  double gap_along(const Vec3 &normal, std::span<const std::int32_t> nodes) const;
+  Vec3 normal_of(std::int32_t face) const;
+  Vec3 nearest_on(Feature feature, std::int32_t number, const Vec3 &point) const;
+  /// Repeated where there are less.
+  std::array<std::int32_t, 3> nodes_of(Feature feature, std::int32_t number) const;
 
   const BodyPose &body;
   const SurfaceView &surface;
+  double least_margin = 0.;
   std::deque<FaceFoot> faces; // few: found by looking through them
   std::deque<EdgeFoot> edges;
 };

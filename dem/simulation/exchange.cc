@@ -40,6 +40,22 @@ void Simulation::add_surface(Surface surface)
   renew_neighbours();
 }
 
+void Simulation::remove_surface(const std::int32_t index)
+{
+  require(index >= 0 && index < static_cast<std::int32_t>(surfaces.size()), "number of the surface to be removed",
+          index, "below the number of surfaces, counted from 0");
+  accounts.removed_wall_work += surfaces[index].work;
+  for (const TouchingContact &contact : contacts.touching_walls(particles))
+    if (contact.feature >= 0 && feature_of(surfaces, contact.feature).surface == index)
+      accounts.exchanged -= stored_energy(contact.state).normal; // as of a wall
+  std::size_t first = 0;
+  for (std::int32_t s = 0; s < index; ++s)
+    first += surfaces[s].n_features();
+  contacts.remove_features(static_cast<std::int32_t>(first), static_cast<std::int32_t>(surfaces[index].n_features()));
+  surfaces.erase(surfaces.begin() + index);
+  renew_neighbours();
+}
+
 Exchange Simulation::remove(const std::vector<std::int32_t> &leaving)
 {
   const auto n = static_cast<std::int32_t>(particles.size());

@@ -205,6 +205,7 @@ void Simulation::drift()
     throw RunError("the run diverged: the energy lost in contacts is not finite at time " + std::to_string(time) +
                    " s; choose a smaller time step (stable estimate in summary.json) or start from the last snapshot");
   move_walls(dt);
+  move_surfaces(dt);
   time += dt;
   ++n_steps;
   last_step = dt;
@@ -221,38 +222,50 @@ void Simulation::move_walls(const double dt)
     wall.motion += dt * wall.velocity.norm();
   }
   dem::check_finite(walls, now());
+}
+
+std::vector<std::vector<Vec3>> Simulation::forces_of_moving() const
+{
+  std::vector<bool> keeps_forces;
+  for (const Surface &surface : surfaces)
+    keeps_forces.push_back(surface.keeps_forces());
+  return dem::node_forces(particles, contacts, surfaces, keeps_forces);
+}
+
+std::vector<Vec3> Simulation::node_forces(const std::int32_t surface) const
+{
+  std::vector<bool> is_wanted(surfaces.size(), false);
+  is_wanted.at(surface) = true;
+  return std::move(dem::node_forces(particles, contacts, surfaces, is_wanted)[surface]);
+}
+
+std::vector<SurfaceLoad> Simulation::surface_loads() const
+{
+  return dem::surface_loads(particles, contacts, surfaces);
+}
+
+/// Forces of a surface that begins to move are those of this step.
+void Simulation::move_surfaces(const double dt)
+{
+  if (std::any_of(surfaces.begin(), surfaces.end(),
+                  [](const Surface &s) { return s.keeps_forces() && s.force.empty(); }))
+  {
+    std::vector<std::vector<Vec3>> forces = forces_of_moving();
+    for (std::size_t s = 0; s < surfaces.size(); ++s)
+      if (surfaces[s].force.empty())
+        surfaces[s].force = std::move(forces[s]);
+  }
   for (Surface &surface : surfaces)
     surface.advance(dt);
 }
 
-/// What the contacts give to the nodes, contact by contact in a fixed order, and its work over the last step.
 void Simulation::load_surfaces()
 {
-  if (surfaces.empty())
+  if (std::none_of(surfaces.begin(), surfaces.end(), [](const Surface &s) { return s.keeps_forces(); }))
     return;
-  for (Surface &surface : surfaces)
-  {
-    surface.old_force = surface.force;
-    std::fill(surface.force.begin(), surface.force.end(), Vec3::Zero());
-  }
-  for (const ContactSet<GrainSurface> &set : contacts.grain_surface)
-    for (std::size_t slot = 0; slot < set.touching().n_slots(); ++slot)
-    {
-      const auto &store = set.touching();
-      if (store.pair[slot] == store.free_slot)
-        continue;
-      const FeatureOfSurface f = feature_of(surfaces, store.second[slot]);
-      Surface &surface = surfaces[f.surface];
-      const ContactState<double> state = store.get(static_cast<std::int32_t>(slot));
-      const Vec3 force = -state.force();
-      const NodeShares shares =
-          node_shares(surface, f.feature, f.number, particles.position[store.first[slot]] + state.point);
-      for (int k = 0; k < 3; ++k)
-        surface.force[shares.node[k]] += shares.share[k] * force;
-    }
-  for (Surface &surface : surfaces)
-    for (std::size_t n = 0; n < surface.node.size(); ++n)
-      surface.work -= 0.5 * last_step * (surface.old_force[n] + surface.force[n]).dot(surface.drift_velocity[n]);
+  std::vector<std::vector<Vec3>> forces = forces_of_moving();
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    surfaces[s].take_forces(std::move(forces[s]), last_step);
 }
 
 void Simulation::rest()

@@ -2,6 +2,7 @@
 
 #include "dem/core/phase_times.h"
 #include "dem/force/contacts.h"
+#include "dem/force/surface_loads.h"
 #include "dem/neighbour/neighbour_watch.h"
 #include "dem/simulation/accounts.h"
 #include "dem/simulation/divergence.h"
@@ -73,6 +74,13 @@ public:
 
   /// Between steps: adds a surface, at rest. Throws ConfigError as its validate() does, or in a periodic cell.
   void add_surface(Surface surface);
+  /// As remove_wall(); later surfaces move up by one.
+  void remove_surface(std::int32_t index);
+
+  /// At this step, once its forces are known. @{
+  std::vector<Vec3> node_forces(std::int32_t surface) const; ///< by node [N]
+  std::vector<SurfaceLoad> surface_loads() const;            ///< by surface
+  /// @}
 
   /// Removes particles at the present step, of which the forces are computed first if they were not. Ids of the others
   /// stay, and so does the history of their contacts; the energy taken out is booked.
@@ -152,6 +160,8 @@ private:
   void renew_neighbours();
   void move_walls(double drift);
   void load_surfaces();
+  void move_surfaces(double drift);
+  std::vector<std::vector<Vec3>> forces_of_moving() const;
   void take_order(const std::vector<std::int32_t> &order);
   double kinetic_energy_of(std::size_t i) const;
   double step_change_here() const;

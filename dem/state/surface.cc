@@ -11,31 +11,57 @@ namespace bergamo::dem
 {
 
 Surface::Surface(std::vector<Vec3> nodes, std::vector<Triangle> triangles)
-    : topology(std::move(triangles), nodes.size()), node(std::move(nodes)), velocity(node.size(), Vec3::Zero()),
-      drift_velocity(velocity), force(velocity)
+    : topology(std::move(triangles), nodes.size()), node(std::move(nodes))
 {
 }
 
 void Surface::advance(const double time_step)
 {
+  drift_velocity = velocity;
   double fastest = 0.;
-  for (std::size_t n = 0; n < node.size(); ++n)
+  for (std::size_t n = 0; n < drift_velocity.size(); ++n)
   {
-    drift_velocity[n] = velocity[n];
     node[n] += time_step * velocity[n];
     fastest = std::max(fastest, velocity[n].squaredNorm());
   }
-  rests = fastest == 0.;
+  if (fastest == 0.)
+    drift_velocity.clear();
   motion += time_step * std::sqrt(fastest);
+}
+
+void Surface::move_to(const std::span<const Vec3> places, const double time_step)
+{
+  require(places.size() == node.size(), "number of places of a surface's nodes", places.size(),
+          "that of its nodes, " + std::to_string(node.size()));
+  if (drift_velocity.empty())
+    drift_velocity.assign(node.size(), Vec3::Zero());
+  double furthest = 0.;
+  for (std::size_t n = 0; n < node.size(); ++n)
+  {
+    const Vec3 way = places[n] - node[n];
+    node[n] = places[n];
+    drift_velocity[n] += way / time_step;
+    furthest = std::max(furthest, way.squaredNorm());
+  }
+  motion += std::sqrt(furthest);
+}
+
+void Surface::take_forces(std::vector<Vec3> forces, const double time_step)
+{
+  const std::vector<Vec3> old = std::exchange(force, std::move(forces));
+  if (old.size() == drift_velocity.size()) // else it has not moved
+    for (std::size_t n = 0; n < old.size(); ++n)
+      work -= 0.5 * time_step * (old[n] + force[n]).dot(drift_velocity[n]);
 }
 
 void Surface::validate(const std::int32_t n_materials) const
 {
   require(topology.n_faces() > 0, "number of triangles of a surface", 0, "at least 1");
-  for (const auto *values : {&node, &velocity, &drift_velocity, &force})
+  for (const auto *values : {&node, &force, &velocity, &drift_velocity})
   {
-    require(values->size() == topology.n_nodes(), "number of places, velocities or forces of a surface's nodes",
-            values->size(), "that of its nodes, " + std::to_string(topology.n_nodes()));
+    require(values->size() == topology.n_nodes() || (values != &node && values->empty()),
+            "number of places, velocities or forces of a surface's nodes", values->size(),
+            "that of its nodes, " + std::to_string(topology.n_nodes()));
     for (const Vec3 &value : *values)
       require(value.allFinite(), "place, velocity or force of a surface's node", value.sum(), "finite");
   }
@@ -65,7 +91,6 @@ void Surface::restore(const std::vector<std::int32_t> &numbers)
   for (std::size_t k = 0; k < numbers.size(); ++k)
     triangles[k / 3][k % 3] = numbers[k];
   topology = SurfaceTopology(std::move(triangles), node.size());
-  rests = std::all_of(drift_velocity.begin(), drift_velocity.end(), [](const Vec3 &v) { return v.isZero(0.); });
 }
 
 FeatureOfSurface feature_of(const std::span<const Surface> surfaces, std::int32_t count)

@@ -13,7 +13,8 @@ namespace bergamo::dem
 {
 
 /// Surface of triangles that grains touch on the side of its normals. Its nodes move as they are told: who owns it sets
-/// velocities, or places together with the velocities that led there, and takes the nodes' forces.
+/// velocities, or moves it to places between steps, and takes the nodes' forces. A surface at rest costs nothing but
+/// its contacts.
 struct Surface
 {
   Surface() = default;
@@ -24,10 +25,20 @@ struct Surface
 
   SurfaceView view() const { return {topology, node}; }
   std::size_t n_features() const { return topology.n_faces() + topology.n_edges() + topology.n_nodes(); }
-  bool is_at_rest() const { return rests; } ///< over the step before
+  bool is_at_rest() const { return drift_velocity.empty(); } ///< over the step before
 
   /// Moves on with the velocities. @param time_step [s]
   void advance(double time_step);
+
+  /// Moves from where advance() has left the nodes to given places, within the same step: places count, and the
+  /// velocities that led there follow from them. @param places of all nodes [m]; @param time_step the drift's [s]
+  void move_to(std::span<const Vec3> places, double time_step);
+
+  /// Whether the nodes' forces are kept from step to step, for the work.
+  bool keeps_forces() const { return !velocity.empty() || !drift_velocity.empty(); }
+
+  /// Takes the forces of this step and books the work since the last one. @param time_step of the drift between [s]
+  void take_forces(std::vector<Vec3> forces, double time_step);
 
   /// Throws ConfigError for numbers that are not finite, arrays of another length than the nodes, triangles without an
   /// area, or a material that the table lacks. @param n_materials of the table
@@ -35,13 +46,12 @@ struct Surface
 
   SurfaceTopology topology;
   std::vector<Vec3> node;           ///< places [m]
-  std::vector<Vec3> velocity;       ///< of the drift to come; may be set between steps [m/s]
-  std::vector<Vec3> drift_velocity; ///< over the step before, which led to the present places [m/s]
-  std::vector<Vec3> force;          ///< of the grains on the nodes at this step, with the contacts' weights [N]
-  std::vector<Vec3> old_force;      ///< the same of the step before
-  double motion = 0.;               ///< path that no node has exceeded since the start [m]
-  double work = 0.;                 ///< done by the surface on the grains since the start [J]
-  std::int32_t material = 1;        ///< of the simulation's table
+  std::vector<Vec3> velocity;       ///< of the drift to come; empty: stays at rest; may be set between steps [m/s]
+  std::vector<Vec3> drift_velocity; ///< over the step before, which led to the present places; empty: at rest [m/s]
+  std::vector<Vec3> force;   ///< of the grains on the nodes at this step, where kept; see Simulation::node_forces() [N]
+  double motion = 0.;        ///< path that no node has exceeded since the start [m]
+  double work = 0.;          ///< done by the surface on the grains since the start [J]
+  std::int32_t material = 1; ///< of the simulation's table
 
   template <class Self, class Visit>
   static void visit_state(Self &self, Visit &visit)
@@ -63,7 +73,8 @@ private:
   std::vector<std::int32_t> numbers() const;
   void restore(const std::vector<std::int32_t> &nodes_of_triangles);
 
-  bool rests = true;
+  std::vector<Vec3> old_force;      // of the step before, where the surface moves
+  std::vector<std::int32_t> loaded; // nodes with a force, some of them twice
 };
 
 /// A feature among those of all surfaces, counted surface by surface: faces, edges, vertices.

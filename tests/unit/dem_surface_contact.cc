@@ -318,11 +318,11 @@ TEST_CASE("bounds of the gap between a body and a feature hold", "[surface]")
         }
     };
     const double a = unit(random), b = unit(random) * (1. - a);
-    check(look.least_gap(Feature::face, f),
+    check(look.separation_from(Feature::face, f).gap,
           a * terrain.node[t[0]] + b * terrain.node[t[1]] + (1. - a - b) * terrain.node[t[2]]);
-    check(look.least_gap(Feature::edge, terrain.topology.edge_of[f][0]),
+    check(look.separation_from(Feature::edge, terrain.topology.edge_of[f][0]).gap,
           a * terrain.node[t[0]] + (1. - a) * terrain.node[t[1]]);
-    check(look.least_gap(Feature::vertex, t[2]), terrain.node[t[2]]);
+    check(look.separation_from(Feature::vertex, t[2]).gap, terrain.node[t[2]]);
   }
   REQUIRE(n_bounds > 200);
 }

@@ -102,7 +102,7 @@ TEST_CASE("a grain on triangles of one plane moves as on the plane")
       const double share = shape.is_sphere() ? 1e-9 : 1e-4;
       CHECK(farthest < share * mm);
       CHECK(most > 0.5 * mm);
-      const std::vector<Vec3> &forces = on_mesh.surfaces[0].force;
+      const std::vector<Vec3> forces = on_mesh.node_forces(0);
       const Vec3 force = std::accumulate(forces.begin(), forces.end(), Vec3(Vec3::Zero()));
       CHECK((on_plane.walls[0].force - force).norm() < 10. * share * on_plane.walls[0].force.norm());
     }
@@ -158,13 +158,14 @@ TEST_CASE("grains on rough triangles keep their energy account and press with th
       CHECK(std::abs(e.viscous_loss) < 1e-15 * scale);
     else
     {
-      const Vec3 force = std::accumulate(s.surfaces[0].force.begin(), s.surfaces[0].force.end(), Vec3(Vec3::Zero()));
+      const std::vector<Vec3> forces = s.node_forces(0);
+      const Vec3 force = std::accumulate(forces.begin(), forces.end(), Vec3(Vec3::Zero()));
       CHECK(e.kinetic < 0.05 * scale);
       CHECK(force[2] == Approx(-weight).epsilon(0.2)); // some still rock
       // Shape functions keep the moment: about the origin it is that of the contacts.
       Vec3 moment = Vec3::Zero(), of_contacts = Vec3::Zero();
       for (std::size_t n = 0; n < s.surfaces[0].node.size(); ++n)
-        moment += s.surfaces[0].node[n].cross(s.surfaces[0].force[n]);
+        moment += s.surfaces[0].node[n].cross(forces[n]);
       for (const TouchingContact &c : s.contacts.touching_walls(s.particles))
       {
         const Vec3 f = -c.state.weight * c.state.force();
@@ -221,7 +222,7 @@ TEST_CASE("a surface that moves carries what lies on it as a plane does, and boo
   for (int n = 0; n < n_steps; ++n)
   {
     const Vec3 now = velocity * std::min(1., double(n) / n_ramp);
-    std::fill(on_mesh.surfaces[0].velocity.begin(), on_mesh.surfaces[0].velocity.end(), now);
+    on_mesh.surfaces[0].velocity.assign(on_mesh.surfaces[0].node.size(), now);
     on_plane.walls[0].velocity = now;
     on_mesh.step();
     on_plane.step();
@@ -259,7 +260,7 @@ TEST_CASE("surfaces have the same bits on any number of threads and across a res
         writer.commit();
         s = std::move(*read_simulation(ArchiveReader(folder / "snapshot.h5", "restart test"), p));
       }
-      std::fill(s.surfaces[0].velocity.begin(), s.surfaces[0].velocity.end(), Vec3(0., 0., n > 11000 ? 0.01 : 0.));
+      s.surfaces[0].velocity.assign(s.surfaces[0].node.size(), Vec3(0., 0., n > 11000 ? 0.01 : 0.));
       s.step();
     }
     CHECK(s.contacts.n_touching_walls() > 5);
@@ -267,6 +268,43 @@ TEST_CASE("surfaces have the same bits on any number of threads and across a res
   }
   CHECK(hashes[0] == hashes[1]);
   CHECK(hashes[0] == hashes[2]);
+}
+
+TEST_CASE("a surface can be taken away from under its grains, and another come in its place")
+{
+  Particles grains;
+  for (int k = 0; k < 3; ++k)
+    grains.add(sphere, 2650., Vec3((3. * k - 3.) * mm, 0., 0.99 * mm), Quaternion::Identity());
+  Simulation s(parameters(0.3, 0.3), grains, {});
+  const auto tile = [](const double x) -> dem::Surface
+  {
+    return {{Vec3(x - mm, -mm, 0.), Vec3(x + mm, -mm, 0.), Vec3(x + mm, mm, 0.), Vec3(x - mm, mm, 0.)},
+            {{0, 1, 2}, {0, 2, 3}}};
+  };
+  for (int k = 0; k < 3; ++k)
+    s.add_surface(tile((3. * k - 3.) * mm));
+  const auto step_to_balance = [&](const int n_steps)
+  {
+    for (int n = 0; n < n_steps; ++n)
+      s.step();
+    return balance_of(s);
+  };
+  s.compute_forces();
+  const double scale = s.energy().normal;
+  CHECK(std::abs(step_to_balance(20)) < 1e-4 * scale);
+  REQUIRE(s.contacts.n_touching_walls() == 3);
+  const std::vector<SurfaceLoad> before = s.surface_loads();
+  CHECK(before[2].force[2] < 0.);
+  s.remove_surface(1);
+  CHECK(s.surfaces.size() == 2);
+  CHECK(s.contacts.n_touching_walls() == 2);
+  const std::vector<SurfaceLoad> after = s.surface_loads();
+  CHECK(after[0].force == before[0].force); // those that stay keep their contacts
+  CHECK(after[1].force == before[2].force);
+  CHECK(std::abs(step_to_balance(20)) < 1e-2 * scale); // what the removed one's contact had stored is booked
+  CHECK_THROWS_WITH(s.remove_surface(2), Catch::Contains("number of the surface to be removed is 2"));
+  s.add_surface(tile(0.));
+  CHECK(s.surfaces.size() == 3);
 }
 
 TEST_CASE("surfaces that cannot be are refused at the door")
@@ -279,7 +317,7 @@ TEST_CASE("surfaces that cannot be are refused at the door")
   flat_one.node[1] = flat_one.node[0];
   CHECK_THROWS_WITH(s.add_surface(flat_one), Contains("triangle 0") && Contains("no area"));
   dem::Surface nan = flat(1, 0.);
-  nan.velocity[2][0] = NAN;
+  nan.velocity.assign(nan.node.size(), Vec3::Constant(NAN));
   CHECK_THROWS_WITH(s.add_surface(nan), Contains("finite"));
   dem::Surface unknown = flat(1, 0.);
   unknown.material = 7;

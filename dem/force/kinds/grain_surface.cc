@@ -5,6 +5,7 @@
 #include "dem/force/searched_contact.h"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace bergamo::dem
@@ -62,6 +63,31 @@ std::optional<ContactState<double>> taken_over(const ContactSearch &search, cons
     found = other;
   }
   return found;
+}
+
+/// Whether a feature that the part reaches without a place there cannot get one before a contact of the same part is
+/// searched: one on a face that leans no more against it than what is followed at once, so that the deepest points on
+/// both move alike, and where it lies further from any border than that contact may go.
+bool is_guarded(const ContactSearch &search, const SearchContext<GrainSurface> &context, SurfaceLook &look)
+{
+  constexpr double safety = 1.2;
+  const FeatureOfSurface f = feature_of(context.scene.surfaces, search.second);
+  if (!context.scene.surfaces[f.surface].is_at_rest() || look.index_of(f.feature, f.number) != 0)
+    return false;
+  const double margin = look.margin();
+  const Vec3 normal = look.normal_beside(f.feature, f.number);
+  for (auto pair = context.list.row[search.first_part]; pair < context.list.row[search.first_part + 1]; ++pair)
+  {
+    if (context.slot[pair] < 0)
+      continue;
+    const FeatureOfSurface other = feature_of(context.scene.surfaces, context.list.second[pair]);
+    if (other.feature != Feature::face || other.surface != f.surface)
+      continue;
+    const ContactState<double> contact = context.store.get(context.slot[pair]);
+    if (safety < margin * contact.radii2.r11 && (contact.normal + normal).norm() < largest_turn)
+      return true;
+  }
+  return false;
 }
 
 /// The part's view of a surface, kept while searches of one part follow one another.
@@ -139,7 +165,12 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
     search.is_touching = place.has_value();
     if (!place)
     {
-      search.gap = std::max(0., look.least_gap(f.feature, f.number));
+      const SeparatingDirection apart = look.separation_from(f.feature, f.number);
+      context.hint[search.pair] = {apart, search, scene};
+      if (apart.gap > 0.)
+        search.gap = apart.gap;
+      else if (is_guarded(search, context, look))
+        search.gap = std::numeric_limits<double>::infinity();
       continue;
     }
     State state = search.slot >= 0 ? context.store.get(search.slot) : State::begin();

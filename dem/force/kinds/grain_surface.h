@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/force/contact_set.h"
+#include "dem/force/kinds/feature_separation.h"
 
 #include <span>
 #include <vector>
@@ -17,11 +18,12 @@ struct GrainSurface
 {
   using State = ContactState<double>;
   using Store = ContactStore<ContactState>;
-  struct Hint
-  {
-  };
+  using Hint = FeatureSeparation;
   static Hint no_hint() { return {}; }
-  static double least_gap(const Hint &, const ContactSearch &, const ContactScene &) { return 0.; } // unknown
+  static double least_gap(const Hint &separation, const ContactSearch &pair, const ContactScene &scene)
+  {
+    return separation.least_gap(pair, scene);
+  }
 
   static constexpr bool second_is_wall = true;
   static constexpr bool takes_over = true;
@@ -34,9 +36,9 @@ struct GrainSurface
     return static_cast<std::int32_t>(count.particles + count.walls);
   }
 
-  static double travelled(const ContactScene &scene, std::int32_t part, std::int32_t feature)
+  static double travelled(const ContactScene &scene, std::int32_t part, std::int32_t)
   {
-    return scene.particles.parts.motion[part] + scene.surfaces[feature_of(scene.surfaces, feature).surface].motion;
+    return scene.particles.parts.motion[part] + scene.surface_motion;
   }
 
   static math::Mask<Pack> follow_block(Store &store, LoadSums &loads, std::size_t block, const ContactScene &scene,
