@@ -51,7 +51,11 @@ void write_surfaces_vtu(const std::span<const Surface> surfaces, const std::span
                         { put_bytes<double>(out, surfaces[nodes[n].first].node[nodes[n].second]); }};
   const VtuArray velocity{vtu_attributes("Float32", "velocity", 3), nodes.size(), 3 * sizeof(float),
                           [&](const std::size_t n, std::byte *out)
-                          { put_bytes<float>(out, surfaces[nodes[n].first].drift_velocity[nodes[n].second]); }};
+                          {
+                            const Surface &surface = surfaces[nodes[n].first];
+                            put_bytes<float>(out, surface.is_at_rest() ? Vec3(Vec3::Zero())
+                                                                       : surface.drift_velocity[nodes[n].second]);
+                          }};
   const auto of_faces = [&](const std::string &attributes, const std::size_t bytes, auto put)
   {
     return VtuArray{attributes, faces.size(), bytes,

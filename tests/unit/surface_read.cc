@@ -65,7 +65,6 @@ void check_is(const dem::Surface &surface, const Soup &soup, const double tolera
 {
   REQUIRE(surface.topology.n_faces() == soup.triangle.size());
   CHECK(surface.topology.n_nodes() == soup.node.size());
-  CHECK(surface.velocity.size() == soup.node.size());
   const auto found = corners_of(surface.node, surface.topology.triangle), given = corners_of(soup.node, soup.triangle);
   double farthest = 0.;
   for (std::size_t k = 0; k < given.size(); ++k)
