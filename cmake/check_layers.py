@@ -93,6 +93,10 @@ def library_violation(path, name):
         return f"deal.II belongs to fe_dealii/, coupling/adapter/dealii_adapter and drivers/: <{name}>"
     if re.match(r"(hdf5|H5)\w*\.h", name) and not path.startswith("dem/core/archive"):
         return f"HDF5 belongs to dem/core/archive: <{name}>"
+    if name.startswith("CGAL/") and path != "dem/io/stl_file.cc":
+        return f"CGAL belongs to dem/io/stl_file.cc: <{name}>"
+    if name.startswith("gmsh.h") and path != "dem/io/gmsh_file.cc":
+        return f"Gmsh belongs to dem/io/gmsh_file.cc: <{name}>"
     return None
 
 

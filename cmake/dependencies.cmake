@@ -26,6 +26,25 @@ add_library(bergamo_hdf5 INTERFACE)
 target_include_directories(bergamo_hdf5 SYSTEM INTERFACE ${HDF5_INCLUDE_DIR})
 target_link_libraries(bergamo_hdf5 INTERFACE ${HDF5_LIBRARY} MPI::MPI_C)
 
+# Surfaces of triangles from files: CGAL's headers read STL, Boost's and zlib VTU, Gmsh its meshes.
+find_path(CGAL_INCLUDE_DIR CGAL/IO/STL.h)
+if(NOT CGAL_INCLUDE_DIR)
+  message(FATAL_ERROR "CGAL's headers were not found: install libcgal-dev")
+endif()
+find_package(ZLIB REQUIRED)
+if(BERGAMO_WITH_GMSH)
+  find_path(GMSH_INCLUDE_DIR gmsh.h)
+  find_library(GMSH_LIBRARY gmsh)
+  if(NOT GMSH_INCLUDE_DIR OR NOT GMSH_LIBRARY)
+    message(FATAL_ERROR "Gmsh was not found: install libgmsh-dev, or configure with -DBERGAMO_WITH_GMSH=OFF to do "
+      "without its meshes as surfaces")
+  endif()
+  add_library(bergamo_gmsh INTERFACE)
+  target_include_directories(bergamo_gmsh SYSTEM INTERFACE ${GMSH_INCLUDE_DIR})
+  # Only programs that read surfaces load it: it brings 90 libraries, a tenth of a second at each start.
+  target_link_libraries(bergamo_gmsh INTERFACE "-Wl,--push-state,--as-needed,${GMSH_LIBRARY},--pop-state")
+endif()
+
 if(BERGAMO_WITH_FE)
   find_package(deal.II 9.4 REQUIRED)
   find_package(CLI11 REQUIRED)

@@ -1,6 +1,7 @@
 #include "dem/geometry/clump_mass.h"
 
 #include "dem/core/error.h"
+#include "dem/geometry/moments.h"
 #include "dem/geometry/orientation.h"
 #include "dem/geometry/part_overlap.h"
 
@@ -91,11 +92,6 @@ struct Sums
     second_error += error * reach * reach;
   }
 };
-
-Mat3 inertia_of(const Mat3 &second)
-{
-  return second.trace() * Mat3::Identity() - second;
-}
 
 /// Moments ascending, axes right-handed.
 void set_principal(MassProperties &mass, const Mat3 &inertia)

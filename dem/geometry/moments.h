@@ -16,4 +16,10 @@ inline Mat3 second_moments(const Moments &m)
   return second;
 }
 
+/// The tensor of inertia of density 1. @param second the integral of x x^T
+inline Mat3 inertia_of(const Mat3 &second)
+{
+  return second.trace() * Mat3::Identity() - second;
+}
+
 } // namespace bergamo::dem

@@ -1,7 +1,5 @@
 #include "dem/geometry/surface_topology.h"
 
-#include "dem/core/error.h"
-
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -17,9 +15,10 @@ SurfaceTopology::SurfaceTopology(std::vector<Triangle> triangles, const std::siz
     {
       const std::int32_t node = triangle[f][k];
       if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
-        reject("triangle ", f, " names node ", node, ", but the surface has the nodes 0 to ", n_nodes, " - 1");
+        reject_triangle(f, "triangle ", f, " names node ", node, ", but the surface has the nodes 0 to ", n_nodes,
+                        " - 1");
       if (node == triangle[f][(k + 1) % 3])
-        reject("triangle ", f, " names node ", node, " twice: remove it from the surface");
+        reject_triangle(f, "triangle ", f, " names node ", node, " twice: remove it from the surface");
     }
   find_edges();
   corners = Rows<Corner>(n_nodes,
@@ -61,11 +60,11 @@ void SurfaceTopology::find_edges()
       }
       Edge &e = edge[place->second];
       if (e.right != none)
-        reject("triangles ", e.left, ", ", e.right, " and ", f, " share the edge of the nodes ", from, " and ", to,
-               ": a surface has two triangles at an edge; make two surfaces of it");
+        reject_triangle(f, "triangles ", e.left, ", ", e.right, " and ", f, " share the edge of the nodes ", from,
+                        " and ", to, ": a surface has two triangles at an edge; make two surfaces of it");
       if (e.from == from)
-        reject("triangles ", e.left, " and ", f, " run through their edge from node ", from, " to node ", to,
-               " both: their normals point to different sides; turn one of them around");
+        reject_triangle(f, "triangles ", e.left, " and ", f, " run through their edge from node ", from, " to node ",
+                        to, " both: their normals point to different sides; turn one of them around");
       e.right = face;
     }
 }
@@ -101,8 +100,8 @@ void SurfaceTopology::check_fans() const
       face = across(face, edge_from(face, (place_in(face) + 2) % 3));
     } while (face != none && face != first && n_reached < fan.size());
     if (n_reached != fan.size())
-      reject("node ", node, " joins ", fan.size(), " triangles of which only ", n_reached,
-             " hang together by edges: give each part a node of its own there");
+      reject_triangle(fan[0].face, "node ", node, " joins ", fan.size(), " triangles of which only ", n_reached,
+                      " hang together by edges: give each part a node of its own there");
   }
 }
 

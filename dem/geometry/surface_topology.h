@@ -1,11 +1,14 @@
 #pragma once
 
+#include "dem/core/error.h"
 #include "dem/core/rows.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace bergamo::dem
@@ -13,6 +16,27 @@ namespace bergamo::dem
 
 /// Node numbers of a triangle, anticlockwise as seen from where the grains are.
 using Triangle = std::array<std::int32_t, 3>;
+
+/// A triangle that makes no surface; who knows places may add where it lies.
+class TriangleError : public ConfigError
+{
+public:
+  TriangleError(const std::string &message, std::size_t triangle)
+      : ConfigError(message), triangle(static_cast<std::int32_t>(triangle))
+  {
+  }
+
+  std::int32_t triangle;
+};
+
+/// Throws TriangleError with the parts as << writes them, one after the other.
+template <class... Parts>
+[[noreturn]] void reject_triangle(const std::size_t triangle, const Parts &...parts)
+{
+  std::ostringstream message;
+  (message << ... << parts);
+  throw TriangleError(message.str(), triangle);
+}
 
 /// Faces, edges and vertices of a surface of triangles, and who lies beside whom. It knows no places, so it stays while
 /// the surface moves. Surfaces may be open, and have parts that are not connected; but two faces at most share an edge,
@@ -38,7 +62,7 @@ public:
 
   SurfaceTopology() = default;
 
-  /// Throws ConfigError naming triangle and nodes: for a node that is not there or comes twice, an edge of more than
+  /// Throws TriangleError naming triangle and nodes: for a node that is not there or comes twice, an edge of more than
   /// two faces or of two that run through it in the same direction, and fans that touch at a vertex alone.
   SurfaceTopology(std::vector<Triangle> triangles, std::size_t n_nodes);
 

@@ -1,14 +1,12 @@
 #include "dem/io/vtu.h"
 
 #include "dem/core/error.h"
-#include "dem/core/parallel.h"
-#include "dem/core/whole_file.h"
-#include "dem/core/xml.h"
+#include "dem/io/vtk_cell.h"
+#include "dem/io/vtu_writer.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
@@ -19,8 +17,6 @@ namespace bergamo::dem
 
 namespace
 {
-
-constexpr std::uint8_t vtk_triangle = 5, vtk_quadrilateral = 9;
 
 /// Points and faces of one part: the poles first and last, rings of longitudes between them from north to south.
 struct Globe
@@ -88,92 +84,38 @@ struct Globe
   }
 };
 
-/// One array of the file. Every part fills the same number of bytes.
-struct Array
-{
-  std::string attributes;
-  std::size_t bytes_per_part;
-  std::function<void(std::size_t part, std::byte *bytes)> fill;
-};
-
-template <class Value>
-void put(std::byte *&bytes, const Value value)
-{
-  std::memcpy(bytes, &value, sizeof value);
-  bytes += sizeof value;
-}
-
-void put(std::byte *&bytes, const Vec3 &vector)
-{
-  for (int i = 0; i < 3; ++i)
-    put(bytes, static_cast<float>(vector[i]));
-}
-
-std::string attributes(const std::string &type, const std::string &name, const int n_components = 1)
-{
-  return "type=\"" + type + "\" Name=\"" + xml_escaped(name) + "\" NumberOfComponents=\"" +
-         std::to_string(n_components) + "\"";
-}
-
 /// Value of a part, repeated on each of its faces.
 template <class Value>
-Array cell_array(const std::string &attributes, const std::size_t bytes, const int n_faces, Value value)
+VtuArray face_array(const std::string &attributes, const std::size_t n_parts, const std::size_t bytes,
+                    const int n_faces, Value value)
 {
-  return {attributes, n_faces * bytes,
+  return {attributes, n_parts, n_faces * bytes,
           [n_faces, value](const std::size_t part, std::byte *out)
           {
             for (int face = 0; face < n_faces; ++face)
-              put(out, value(part));
+              put_bytes(out, value(part));
           }};
 }
 
 /// Indices that grow by `shift` from one part to the next.
 template <class Index>
-Array index_array(const std::string &attributes, const std::vector<int> &first, const std::size_t shift)
+VtuArray index_array(const std::string &attributes, const std::vector<int> &first, const std::size_t n_parts,
+                     const std::size_t shift)
 {
-  return {attributes, first.size() * sizeof(Index),
+  return {attributes, n_parts, first.size() * sizeof(Index),
           [&first, shift](const std::size_t part, std::byte *out)
           {
             for (const int index : first)
-              put(out, static_cast<Index>(part * shift + index));
+              put_bytes(out, static_cast<Index>(part * shift + index));
           }};
 }
 
-Array index_array(const std::string &name, const std::vector<int> &first, const std::size_t shift,
-                  const std::size_t largest)
+VtuArray index_array(const std::string &name, const std::vector<int> &first, const std::size_t n_parts,
+                     const std::size_t shift)
 {
-  return largest <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())
-             ? index_array<std::int32_t>(attributes("Int32", name), first, shift)
-             : index_array<std::int64_t>(attributes("Int64", name), first, shift);
-}
-
-/// Section of the XML part; `offset` runs on through the binary part.
-std::string section(const std::string &name, const std::span<const Array> arrays, const std::size_t n_parts,
-                    std::size_t &offset)
-{
-  std::string text = "      <" + name + ">\n";
-  for (const Array &array : arrays)
-  {
-    text +=
-        "        <DataArray " + array.attributes + " format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
-    offset += sizeof(std::uint64_t) + n_parts * array.bytes_per_part;
-  }
-  return text + "      </" + name + ">\n";
-}
-
-void write(WholeFile &file, const Array &array, const std::size_t n_parts)
-{
-  const std::uint64_t size = n_parts * array.bytes_per_part;
-  file.write(&size, sizeof size);
-  constexpr std::size_t parts_at_once = 2048;
-  std::vector<std::byte> block;
-  for (std::size_t first = 0; first < n_parts; first += parts_at_once)
-  {
-    const std::size_t n = std::min(parts_at_once, n_parts - first);
-    block.resize(n * array.bytes_per_part);
-    parallel_for(n, [&](const std::size_t i) { array.fill(first + i, block.data() + i * array.bytes_per_part); });
-    file.write(block.data(), block.size());
-  }
+  return n_parts * shift <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())
+             ? index_array<std::int32_t>(vtu_attributes("Int32", name), first, n_parts, shift)
+             : index_array<std::int64_t>(vtu_attributes("Int64", name), first, n_parts, shift);
 }
 
 } // namespace
@@ -195,62 +137,41 @@ void write_grains_vtu(const Particles &particles, const std::span<const GrainFie
   const std::vector<std::int32_t> &carrier = particles.parts.particle;
   const int n_faces = static_cast<int>(globe.face_end.size());
 
-  const Array points{attributes("Float32", "Points", 3), n_points * 3 * sizeof(float),
-                     [&](const std::size_t part, std::byte *out)
-                     {
-                       thread_local std::vector<Vec3> body;
-                       globe.points(particles.parts.shape[part], body);
-                       const Vec3 centre = particles.part_position(part);
-                       const Mat3 turn = particles.part_orientation(part).toRotationMatrix();
-                       for (const Vec3 &point : body)
-                         put(out, Vec3(centre + turn * point));
-                     }};
+  const VtuArray points{vtu_attributes("Float32", "Points", 3), n_parts, n_points * 3 * sizeof(float),
+                        [&](const std::size_t part, std::byte *out)
+                        {
+                          thread_local std::vector<Vec3> body;
+                          globe.points(particles.parts.shape[part], body);
+                          const Vec3 centre = particles.part_position(part);
+                          const Mat3 turn = particles.part_orientation(part).toRotationMatrix();
+                          for (const Vec3 &point : body)
+                            put_bytes(out, Vec3(centre + turn * point));
+                        }};
   const std::size_t n_corners = globe.connectivity.size();
-  const Array types{attributes("UInt8", "types"), globe.face_type.size(),
-                    [&](std::size_t, std::byte *out) { std::memcpy(out, globe.face_type.data(), n_faces); }};
-  const std::vector<Array> cells{index_array("connectivity", globe.connectivity, n_points, n_parts * n_points),
-                                 index_array("offsets", globe.face_end, n_corners, n_parts * n_corners), types};
+  const VtuArray types{vtu_attributes("UInt8", "types"), n_parts, globe.face_type.size(),
+                       [&](std::size_t, std::byte *out) { std::memcpy(out, globe.face_type.data(), n_faces); }};
+  const std::vector<VtuArray> cells{index_array("connectivity", globe.connectivity, n_parts, n_points),
+                                    index_array("offsets", globe.face_end, n_parts, n_corners), types};
 
   const auto vectors = [&](const std::string &name, const std::vector<Vec3> &values)
   {
-    return cell_array(attributes("Float32", name, 3), 3 * sizeof(float), n_faces,
+    return face_array(vtu_attributes("Float32", name, 3), n_parts, 3 * sizeof(float), n_faces,
                       [&carrier, &values](const std::size_t part) -> const Vec3 & { return values[carrier[part]]; });
   };
   const auto scalars = [&](const std::string &name, const std::span<const double> values)
   {
-    return cell_array(attributes("Float32", name), sizeof(float), n_faces,
+    return face_array(vtu_attributes("Float32", name), n_parts, sizeof(float), n_faces,
                       [&carrier, values](const std::size_t part) { return static_cast<float>(values[carrier[part]]); });
   };
-  std::vector<Array> cell_data{cell_array(attributes("Int64", "id"), sizeof(std::int64_t), n_faces,
-                                          [&](const std::size_t part) { return particles.id[carrier[part]]; }),
-                               vectors("velocity", particles.velocity),
-                               vectors("angular_velocity", particles.angular_velocity),
-                               scalars("bounding_radius", particles.bounding_radius)};
+  std::vector<VtuArray> cell_data{face_array(vtu_attributes("Int64", "id"), n_parts, sizeof(std::int64_t), n_faces,
+                                             [&](const std::size_t part) { return particles.id[carrier[part]]; }),
+                                  vectors("velocity", particles.velocity),
+                                  vectors("angular_velocity", particles.angular_velocity),
+                                  scalars("bounding_radius", particles.bounding_radius)};
   for (const GrainField &field : fields)
     cell_data.push_back(scalars(field.name, field.values));
 
-  std::size_t offset = 0;
-  std::string head = "<?xml version=\"1.0\"?>\n"
-                     "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                     "header_type=\"UInt64\">\n"
-                     "  <UnstructuredGrid>\n"
-                     "    <Piece NumberOfPoints=\"" +
-                     std::to_string(n_parts * n_points) + "\" NumberOfCells=\"" + std::to_string(n_parts * n_faces) +
-                     "\">\n";
-  head += section("Points", {&points, 1}, n_parts, offset);
-  head += section("Cells", cells, n_parts, offset);
-  head += section("CellData", cell_data, n_parts, offset);
-  head += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
-
-  WholeFile file(path);
-  file.write(head);
-  write(file, points, n_parts);
-  for (const Array &array : cells)
-    write(file, array, n_parts);
-  for (const Array &array : cell_data)
-    write(file, array, n_parts);
-  file.write("\n  </AppendedData>\n</VTKFile>\n");
-  file.commit();
+  write_vtu({n_parts * n_points, n_parts * n_faces, points, cells, {}, cell_data}, path);
 }
 
 } // namespace bergamo::dem

@@ -111,8 +111,8 @@ void Surface::validate(const std::int32_t n_materials) const
     const Triangle &t = topology.triangle[f];
     const Vec3 a = node[t[1]] - node[t[0]], b = node[t[2]] - node[t[0]];
     if (!(a.cross(b).norm() > 1e-12 * std::max(a.squaredNorm(), b.squaredNorm())))
-      reject("triangle ", f, " of a surface (nodes ", t[0], ", ", t[1], ", ", t[2],
-             ") has no area: remove it, and let its neighbours meet");
+      reject_triangle(f, "triangle ", f, " of a surface (nodes ", t[0], ", ", t[1], ", ", t[2],
+                      ") has no area: remove it, and let its neighbours meet");
   }
   require(material >= 0 && material < n_materials, "material of a surface", material,
           "the number of one of the " + std::to_string(n_materials) + " materials of the table, counted from 0");

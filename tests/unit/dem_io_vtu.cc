@@ -5,12 +5,10 @@
 #include "dem/io/vtu.h"
 
 #include "tests/temporary_folder.h"
+#include "tests/unit/vtu_reader.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <map>
 
 using namespace bergamo;
@@ -19,50 +17,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-/// Just enough of a reader: the arrays by name from the raw binary part.
-struct Vtu
-{
-  std::string xml;
-  std::string binary;
-  std::size_t n_points = 0, n_cells = 0;
-  std::map<std::string, std::size_t> offset;
-
-  explicit Vtu(const std::string &bytes)
-  {
-    const std::string mark = "<AppendedData encoding=\"raw\">\n_", end = "\n  </AppendedData>\n</VTKFile>\n";
-    const std::size_t start = bytes.find(mark);
-    REQUIRE(start != std::string::npos);
-    REQUIRE(bytes.ends_with(end));
-    xml = bytes.substr(0, start);
-    binary = bytes.substr(start + mark.size(), bytes.size() - end.size() - start - mark.size());
-    n_points = std::stoul(value_after("NumberOfPoints=\"", 0));
-    n_cells = std::stoul(value_after("NumberOfCells=\"", 0));
-    for (std::size_t at = xml.find("<DataArray"); at != std::string::npos; at = xml.find("<DataArray", at + 1))
-      offset[value_after("Name=\"", at)] = std::stoul(value_after("offset=\"", at));
-  }
-
-  std::string value_after(const std::string &key, const std::size_t from) const
-  {
-    const std::size_t start = xml.find(key, from) + key.size();
-    return xml.substr(start, xml.find('"', start) - start);
-  }
-
-  template <class Value>
-  std::vector<Value> array(const std::string &name) const
-  {
-    REQUIRE(offset.count(name) == 1);
-    const char *start = binary.data() + offset.at(name);
-    std::uint64_t size;
-    std::memcpy(&size, start, sizeof size);
-    REQUIRE(offset.at(name) + sizeof size + size <= binary.size());
-    REQUIRE(size % sizeof(Value) == 0);
-    std::vector<Value> values(size / sizeof(Value));
-    if (size > 0)
-      std::memcpy(values.data(), start + sizeof size, size);
-    return values;
-  }
-};
 
 Particles three_grains()
 {
@@ -88,7 +42,7 @@ TEST_CASE("grains are written as closed surfaces of their true volume")
   write_grains_vtu(particles, fields, path);
   CHECK_FALSE(fs::exists(path.string() + ".partial"));
 
-  const Vtu vtu(content_of(path));
+  const VtuReader vtu(content_of(path));
   const auto points = vtu.array<float>("Points");
   const auto corners = vtu.array<std::int32_t>("connectivity");
   const auto ends = vtu.array<std::int32_t>("offsets");
@@ -138,7 +92,7 @@ TEST_CASE("every written point lies on its grain")
   const TemporaryFolder folder;
   const Particles particles = three_grains();
   write_grains_vtu(particles, {}, folder / "grains.vtu", 4);
-  const Vtu vtu(content_of(folder / "grains.vtu"));
+  const VtuReader vtu(content_of(folder / "grains.vtu"));
   const auto points = vtu.array<float>("Points");
   const std::size_t n_each = vtu.n_points / 3;
   for (std::size_t i = 0; i < vtu.n_points; ++i)
@@ -161,7 +115,7 @@ TEST_CASE("the volume drawn stays near the true one over all shapes")
     for (const double eps2 : exponents)
       particles.add({Vec3(1.1, 0.8, 0.6), eps1, eps2}, 1., Vec3::Zero(), Quaternion::Identity());
   write_grains_vtu(particles, {}, folder / "grains.vtu");
-  const Vtu vtu(content_of(folder / "grains.vtu"));
+  const VtuReader vtu(content_of(folder / "grains.vtu"));
   const auto points = vtu.array<float>("Points");
   const auto corners = vtu.array<std::int32_t>("connectivity");
   const auto ends = vtu.array<std::int32_t>("offsets");
@@ -193,7 +147,7 @@ TEST_CASE("clumps are written part by part, with what belongs to their particle"
   const std::vector<GrainField> fields{{"pressure", pressure}};
   write_grains_vtu(particles, fields, folder / "grains.vtu", 4);
 
-  const Vtu vtu(content_of(folder / "grains.vtu"));
+  const VtuReader vtu(content_of(folder / "grains.vtu"));
   const std::size_t n_points = 7 * 16 + 2, n_faces = 8 * 16; // of a part
   REQUIRE(vtu.n_points == 4 * n_points);
   REQUIRE(vtu.n_cells == 4 * n_faces);
@@ -234,7 +188,7 @@ TEST_CASE("no grains make a file without cells")
 {
   const TemporaryFolder folder;
   write_grains_vtu({}, {}, folder / "grains.vtu");
-  const Vtu vtu(content_of(folder / "grains.vtu"));
+  const VtuReader vtu(content_of(folder / "grains.vtu"));
   CHECK(vtu.n_points == 0);
   CHECK(vtu.n_cells == 0);
   CHECK(vtu.array<float>("Points").empty());

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+namespace bergamo::dem
+{
+
+/// VTK's numbers of the kinds of cells.
+inline constexpr std::uint8_t vtk_triangle = 5, vtk_quadrilateral = 9;
+
+/// Vertices, lines, rows of them, and lines of second order.
+inline bool is_point_or_line(const double type)
+{
+  constexpr int vtk_poly_line = 4, vtk_quadratic_edge = 21;
+  return (type >= 1. && type <= vtk_poly_line) || type == vtk_quadratic_edge;
+}
+
+} // namespace bergamo::dem
