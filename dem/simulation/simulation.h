@@ -150,6 +150,7 @@ private:
   void set_range();
   void check_cell() const;
   void renew_neighbours();
+  void renew_strayed();
   void move_walls(double drift);
   void load_surfaces();
   void take_order(const std::vector<std::int32_t> &order);
