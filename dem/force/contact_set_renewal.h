@@ -51,6 +51,11 @@ template <class Kind>
 std::vector<std::int32_t> ContactSet<Kind>::take_candidates(const VerletList &found,
                                                             const std::span<const std::uint8_t> sought)
 {
+  if (list.size() == 0 && found.size() == 0) // as many sets of many materials
+  {
+    list.row = found.row;
+    return {};
+  }
   const std::size_t n_rows = found.row.empty() ? 0 : found.row.size() - 1;
   const auto stays = [&](const std::size_t pair)
   {
