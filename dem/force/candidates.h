@@ -6,23 +6,41 @@
 #include "dem/state/wall.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace bergamo::dem
 {
 
-/// Pairs of parts of different particles that are nearer than their bounding radii plus a range [m]; pairs of two fixed
-/// particles are left out.
-VerletList near_parts(const Particles &particles, double range);
+/// Which candidates are looked for, and where.
+struct CandidateSearch
+{
+  double range;                              ///< beyond the bounding radii [m]
+  std::span<const Vec3> places = {};         ///< centres of the parts [m]; none given, where they are
+  std::span<const std::uint8_t> sought = {}; ///< by part: only pairs with one of these are; none given, all
 
-/// Parts of free particles that are nearer to a wall than their bounding radius plus a range [m]: rows by part, the
-/// second of a pair is the wall.
-VerletList parts_near_walls(const Particles &particles, const std::vector<PlaneWall> &walls, double range);
+  bool seeks(const std::size_t part) const { return sought.empty() || sought[part]; }
+};
+
+/// Pairs of parts of different particles that are nearer than their bounding radii plus the range; pairs of two fixed
+/// particles are left out. @param search with places
+VerletList near_parts(const Particles &particles, const CandidateSearch &search);
+
+/// Parts of free particles that are nearer to a wall than their bounding radius plus the range: rows by part, the
+/// second of a pair is the wall. @param search with places
+VerletList parts_near_walls(const Particles &particles, const std::vector<PlaneWall> &walls,
+                            const CandidateSearch &search);
+
+/// Tree of the boxes around all triangles of surfaces where they lie; the one known if that is still true.
+struct FaceTree;
+std::shared_ptr<const FaceTree> face_tree(std::span<const Surface> surfaces,
+                                          const std::shared_ptr<const FaceTree> &known);
 
 /// Parts of free particles and features of surfaces that are nearer to one another than the part's bounding radius plus
-/// a range [m]: rows by part, the second of a pair counts as in feature_of().
-VerletList parts_near_surfaces(const Particles &particles, std::span<const Surface> surfaces, double range);
+/// the range: rows by part, the second of a pair counts as in feature_of(). @param search with places
+VerletList parts_near_surfaces(const Particles &particles, std::span<const Surface> surfaces,
+                               const CandidateSearch &search, const FaceTree &tree);
 
 /// Deals a list out to several, in its order. @param class_of class_of(first, second) of a pair, in [0, n)
 template <class ClassOf>

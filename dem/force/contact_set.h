@@ -8,6 +8,7 @@
 #include "dem/neighbour/verlet_list.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace bergamo::dem
@@ -36,8 +37,10 @@ public:
   static constexpr std::int32_t apart = -1;
 
   /// Replaces the candidates, keeping the history of every pair that stays. History of pairs that leave is booked as
-  /// loss. @param candidates rows by part; the second of a pair is a part, or a wall
-  void renew(VerletList candidates, const Particles &particles);
+  /// loss. @param found rows by part; the second of a pair is a part, or a wall
+  /// @param sought by part: pairs without one of these stay, and bodies are still the same; none given, all are
+  /// replaced
+  void renew(const VerletList &found, const Particles &particles, std::span<const std::uint8_t> sought);
 
   /// Follows a new order of the parts, new_part[old] or removed_part; history with a removed one is booked as loss. The
   /// candidates must be renewed afterwards. @param n_parts that stay
@@ -126,7 +129,9 @@ private:
   void add_due_loads(const Particles &particles, const std::vector<std::int32_t> &due_slots);
   void add_load_of(const Particles &particles, const ContactSearch &pair, const Resultant &resultant);
   std::int32_t slot_near(std::int32_t pair) const;
-  void compact(const std::vector<std::int32_t> &pairs, const Particles &particles);
+  std::vector<std::int32_t> take_candidates(const VerletList &found, std::span<const std::uint8_t> sought);
+  bool is_scattered() const;
+  void compact(const Particles &particles);
   VerletList list;
   std::vector<std::int32_t> slot; ///< of each candidate in `store`, or `apart`
   /// A pair apart cannot touch before the motions of both bodies add up to this [m]: it is left alone until then, which

@@ -1,11 +1,14 @@
 #pragma once
 
+#include "dem/core/parallel_sum.h"
 #include "dem/force/contact_set.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 /// How a ContactSet follows new candidates and a new order; for the sources of the kinds alone.
 namespace bergamo::dem
@@ -23,55 +26,158 @@ inline std::int32_t interleaved_slot(const std::size_t k, const std::size_t n)
 }
 
 template <class Kind>
-void ContactSet<Kind>::renew(VerletList new_list, const Particles &particles)
+void ContactSet<Kind>::renew(const VerletList &found, const Particles &particles,
+                             const std::span<const std::uint8_t> sought)
 {
-  constexpr double no_rest = -std::numeric_limits<double>::infinity();
-  std::vector<std::int32_t> new_slot(new_list.size(), apart);
-  std::vector<double> new_rest(new_list.size(), no_rest);
-  std::vector<typename Kind::Hint> new_hint(new_list.size(), Kind::no_hint());
+  for (const std::int32_t left : take_candidates(found, sought)) // by slot
+  {
+    losses += release(store.get(left));
+    store.remove(left);
+  }
+  if (sought.empty() || is_scattered())
+  {
+    compact(particles);
+    return;
+  }
+  parallel_for(list.size(),
+               [&](const std::size_t pair)
+               {
+                 if (slot[pair] != apart)
+                   store.pair[slot[pair]] = static_cast<std::int32_t>(pair);
+               });
+}
+
+/// Merges the candidates found with those that stay. @return slots of the pairs that leave, in the order of the pairs
+template <class Kind>
+std::vector<std::int32_t> ContactSet<Kind>::take_candidates(const VerletList &found,
+                                                            const std::span<const std::uint8_t> sought)
+{
+  if (list.size() == 0 && found.size() == 0) // as many sets of many materials
+  {
+    list.row = found.row;
+    return {};
+  }
+  const std::size_t n_rows = found.row.empty() ? 0 : found.row.size() - 1;
+  const auto stays = [&](const std::size_t pair)
+  {
+    if (sought.empty() || sought[list.first[pair]])
+      return false;
+    return Kind::second_is_wall || !sought[list.second[pair]];
+  };
+  const auto old_row = [&](const std::size_t i) // parts that came have none
+  { return i + 1 < list.row.size() ? std::pair(list.row[i], list.row[i + 1]) : std::pair(0, 0); };
+
+  VerletList next;
+  next.row.resize(n_rows + 1);
+  parallel_for(n_rows,
+               [&](const std::size_t i)
+               {
+                 std::int32_t n = found.row[i + 1] - found.row[i];
+                 const auto [begin, end] = old_row(i);
+                 for (auto pair = begin; pair < end; ++pair)
+                   n += stays(pair);
+                 next.row[i] = n;
+               });
+  exclusive_sum(next.row);
+  const std::size_t n_pairs = next.row.back();
+  next.first.resize(n_pairs);
+  next.second.resize(n_pairs);
+  next.image.resize(n_pairs);
+  std::vector<std::int32_t> next_slot(n_pairs);
+  std::vector<double> next_rest(n_pairs);
+  std::vector<typename Kind::Hint> next_hint(n_pairs);
+  const auto stays_whole = [&](const std::size_t i)
+  {
+    const auto [begin, end] = old_row(i);
+    return found.row[i] == found.row[i + 1] && next.row[i + 1] - next.row[i] == end - begin;
+  };
+  const auto take_rows = [&](const std::size_t i, const std::size_t end_rows) // that stay whole
+  {
+    const std::int32_t n = next.row[end_rows] - next.row[i], from = old_row(i).first, to = next.row[i];
+    const auto take = [&](const auto &old, auto &now) { std::copy_n(old.begin() + from, n, now.begin() + to); };
+    take(list.first, next.first);
+    take(list.second, next.second);
+    take(list.image, next.image);
+    take(slot, next_slot);
+    take(rest_until, next_rest);
+    take(hint, next_hint);
+  };
   Collected<std::int32_t> left;
-  parallel_ranges(new_list.row.empty() ? 0 : new_list.row.size() - 1, 64,
+  parallel_ranges(n_rows, 64,
                   [&](const std::size_t part, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t i = begin; i < end; ++i)
                     {
-                      // Both rows are sorted by the second partner: walk them together. Parts that came have none.
-                      const bool had_row = i + 1 < list.row.size();
-                      std::size_t old_pair = had_row ? list.row[i] : 0;
-                      const std::size_t old_end = had_row ? list.row[i + 1] : 0;
-                      const auto leave = [&]
+                      const std::size_t first_whole = i;
+                      while (i < end && stays_whole(i))
+                        ++i;
+                      take_rows(first_whole, i);
+                      if (i == end)
+                        break;
+                      auto [old, old_end] = old_row(i);
+                      std::int32_t pair = next.row[i], now = found.row[i];
+                      const std::int32_t end_found = found.row[i + 1];
+                      while (old < old_end || now < end_found) // both sorted by the second partner
                       {
-                        if (slot[old_pair] != apart)
-                          left.of(part).push_back(static_cast<std::int32_t>(old_pair));
-                        ++old_pair;
-                      };
-                      for (auto pair = new_list.row[i]; pair < new_list.row[i + 1]; ++pair)
-                      {
-                        while (old_pair < old_end && list.second[old_pair] < new_list.second[pair])
-                          leave();
-                        if (old_pair < old_end && list.second[old_pair] == new_list.second[pair])
+                        const bool was = old < old_end && !(now < end_found && found.second[now] < list.second[old]);
+                        const bool is = now < end_found && !(was && list.second[old] < found.second[now]);
+                        if (was && !is && !stays(old))
                         {
-                          new_slot[pair] = slot[old_pair];
-                          const bool is_guarded = slot[old_pair] == apart && std::isinf(rest_until[old_pair]);
-                          new_rest[pair] = is_guarded ? no_rest : rest_until[old_pair]; // its guard may leave
-                          new_hint[pair] = hint[old_pair];
-                          ++old_pair;
+                          if (slot[old] != apart)
+                            left.of(part).push_back(slot[old]);
+                          ++old;
+                          continue;
                         }
+                        next.first[pair] = static_cast<std::int32_t>(i);
+                        next.second[pair] = is ? found.second[now] : list.second[old];
+                        next.image[pair] = is ? found.image[now] : list.image[old];
+                        next_slot[pair] = was ? slot[old] : apart;
+                        const bool is_guarded = was && slot[old] == apart && std::isinf(rest_until[old]);
+                        constexpr double no_rest = -std::numeric_limits<double>::infinity();
+                        next_rest[pair] = was && !is_guarded ? rest_until[old] : no_rest; // its guard may leave
+                        next_hint[pair] = was ? hint[old] : Kind::no_hint();
+                        ++pair;
+                        old += was;
+                        now += is;
                       }
-                      while (old_pair < old_end)
-                        leave();
                     }
                   });
-  left.for_each(
-      [&](const std::int32_t pair)
-      {
-        losses += release(store.get(slot[pair]));
-        store.remove(slot[pair]);
-      });
-  list = std::move(new_list);
-  slot = std::move(new_slot);
-  rest_until = std::move(new_rest);
-  hint = std::move(new_hint);
+  list = std::move(next);
+  slot = std::move(next_slot);
+  rest_until = std::move(next_rest);
+  hint = std::move(next_hint);
+  return left.all();
+}
+
+/// Whether slots lie so far from the order of their pairs, or so many are unused, that a step goes better with new
+/// ones. This follows from the contacts alone, as all that the sums depend on.
+template <class Kind>
+bool ContactSet<Kind>::is_scattered() const
+{
+  constexpr std::size_t share = 8;      // of the contacts
+  std::atomic<std::size_t> n_jumps = 0; // from one chunk to another, between one contact and the next
+  parallel_ranges(list.size(), 4096,
+                  [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    std::size_t before = begin; // the pair touching before
+                    while (before > 0 && slot[before - 1] == apart)
+                      --before;
+                    const auto chunk_of = [&](const std::size_t pair) { return slot[pair] / slots_per_chunk; };
+                    std::size_t chunk = before > 0 ? chunk_of(before - 1) : 0, n = 0;
+                    for (std::size_t pair = begin; pair < end; ++pair)
+                      if (slot[pair] != apart)
+                        n += std::exchange(chunk, chunk_of(pair)) != chunk_of(pair);
+                    n_jumps += n;
+                  });
+  const std::size_t n_contacts = store.size();
+  return n_jumps > n_contacts / share + store.n_chunks() ||
+         store.n_slots() > n_contacts + n_contacts / share + slots_per_chunk;
+}
+
+/// Moves contacts to slots in the order of their pairs, nearly.
+template <class Kind>
+void ContactSet<Kind>::compact(const Particles &particles)
+{
   Collected<std::int32_t> touching_pairs;
   parallel_ranges(list.size(), 4096,
                   [&](const std::size_t part, const std::size_t begin, const std::size_t end)
@@ -80,13 +186,7 @@ void ContactSet<Kind>::renew(VerletList new_list, const Particles &particles)
                       if (slot[pair] != apart)
                         touching_pairs.of(part).push_back(static_cast<std::int32_t>(pair));
                   });
-  compact(touching_pairs.all(), particles);
-}
-
-/// Moves contacts to slots in the order of their pairs, nearly. @param pairs those that touch, in their order
-template <class Kind>
-void ContactSet<Kind>::compact(const std::vector<std::int32_t> &pairs, const Particles &particles)
-{
+  const std::vector<std::int32_t> pairs = touching_pairs.all();
   typename Kind::Store ordered;
   ordered.resize(pairs.size());
   parallel_for(pairs.size(),

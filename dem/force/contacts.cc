@@ -1,7 +1,6 @@
 #include "dem/force/contacts.h"
 
 #include "dem/core/parallel.h"
-#include "dem/force/candidates.h"
 
 #include <utility>
 
@@ -27,32 +26,40 @@ Contacts::Contacts(const std::int32_t n_material_pairs)
 }
 
 void Contacts::renew(const Particles &particles, const std::vector<PlaneWall> &walls,
-                     const std::span<const Surface> surfaces, const double range)
+                     const std::span<const Surface> surfaces, CandidateSearch search)
 {
   const Parts &parts = particles.parts;
+  std::vector<Vec3> places;
+  if (search.places.empty())
+  {
+    places.resize(parts.size());
+    parallel_for(parts.size(), [&](const std::size_t k) { places[k] = particles.part_position(k); });
+    search.places = places;
+  }
   const std::size_t n_laws = grain_grain.size();
   std::vector<std::uint8_t> is_sphere(parts.size());
   parallel_for(parts.size(), [&](const std::size_t k) { is_sphere[k] = parts.is_central_sphere(k); });
   const auto law_of_parts = [&](const std::int32_t i, const std::int32_t j)
   { return MaterialTable::pair_number(parts.material[i], parts.material[j]); };
 
-  std::vector<VerletList> lists = split(near_parts(particles, range), 2 * n_laws,
+  std::vector<VerletList> lists = split(near_parts(particles, search), 2 * n_laws,
                                         [&](const std::int32_t i, const std::int32_t j)
                                         { return (is_sphere[i] && is_sphere[j] ? n_laws : 0) + law_of_parts(i, j); });
   for (std::size_t law = 0; law < n_laws; ++law)
   {
-    grain_grain[law].renew(std::move(lists[law]), particles);
-    sphere_sphere[law].renew(std::move(lists[n_laws + law]), particles);
+    grain_grain[law].renew(lists[law], particles, search.sought);
+    sphere_sphere[law].renew(lists[n_laws + law], particles, search.sought);
   }
 
   std::vector<VerletList> near_walls =
-      split(parts_near_walls(particles, walls, range), n_laws,
+      split(parts_near_walls(particles, walls, search), n_laws,
             [&](const std::int32_t part, const std::int32_t wall)
             { return MaterialTable::pair_number(parts.material[part], walls[wall].material); });
   for (std::size_t law = 0; law < n_laws; ++law)
-    grain_plane[law].renew(std::move(near_walls[law]), particles);
+    grain_plane[law].renew(near_walls[law], particles, search.sought);
 
-  std::vector<VerletList> near_surfaces = split(parts_near_surfaces(particles, surfaces, range), n_laws,
+  faces = face_tree(surfaces, faces);
+  std::vector<VerletList> near_surfaces = split(parts_near_surfaces(particles, surfaces, search, *faces), n_laws,
                                                 [&](const std::int32_t part, const std::int32_t feature)
                                                 {
                                                   const std::int32_t material =
@@ -60,7 +67,7 @@ void Contacts::renew(const Particles &particles, const std::vector<PlaneWall> &w
                                                   return MaterialTable::pair_number(parts.material[part], material);
                                                 });
   for (std::size_t law = 0; law < n_laws; ++law)
-    grain_surface[law].renew(std::move(near_surfaces[law]), particles);
+    grain_surface[law].renew(near_surfaces[law], particles, search.sought);
 }
 
 void Contacts::reorder(const std::vector<std::int32_t> &part_order, const std::size_t n_old)

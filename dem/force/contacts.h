@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/force/candidates.h"
 #include "dem/force/kinds/grain_grain.h"
 #include "dem/force/kinds/grain_plane.h"
 #include "dem/force/kinds/grain_surface.h"
@@ -54,9 +55,9 @@ public:
                   });
   }
 
-  /// Looks for candidates anew; the history of pairs that stay is kept. @param range beyond the bounding radii [m]
+  /// Looks for candidates anew; the history of pairs that stay is kept, and so are all pairs without a part sought.
   void renew(const Particles &particles, const std::vector<PlaneWall> &walls, std::span<const Surface> surfaces,
-             double range);
+             CandidateSearch search);
 
   /// Follows a new order of the parts that stay, order[new] = old. The candidates must be renewed afterwards.
   /// @param n_old parts before
@@ -118,6 +119,9 @@ public:
   std::vector<ContactSet<SphereSphere>> sphere_sphere;
   std::vector<ContactSet<GrainPlane>> grain_plane;
   std::vector<ContactSet<GrainSurface>> grain_surface;
+
+private:
+  std::shared_ptr<const FaceTree> faces; // kept while the surfaces rest; follows from them alone
 };
 
 } // namespace bergamo::dem

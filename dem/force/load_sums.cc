@@ -12,9 +12,10 @@ namespace
 constexpr std::int32_t none = -1;
 
 /// Room in a chunk of n bodies, and for the chunks of a body that has n: more come with contacts that begin.
-std::int32_t with_room_in_chunk(const std::size_t n)
+/// @param n_to_come slots that the chunk does not have yet
+std::int32_t with_room_in_chunk(const std::size_t n, const std::size_t n_to_come)
 {
-  return static_cast<std::int32_t>(n + n / 4 + 32);
+  return static_cast<std::int32_t>(n + std::max(n / 4, 2 * n_to_come) + 32);
 }
 std::int32_t with_room_of_body(const std::int32_t n)
 {
@@ -72,7 +73,8 @@ void LoadSums::list_bodies(const std::vector<std::int32_t> &first, const std::ve
   for (std::size_t chunk = 0; chunk < n; ++chunk)
   {
     count[chunk] = static_cast<std::int32_t>(bodies_of[chunk].size());
-    row[chunk + 1] = row[chunk] + with_room_in_chunk(bodies_of[chunk].size());
+    const std::size_t n_to_come = (chunk + 1) * slots_per_chunk - std::min((chunk + 1) * slots_per_chunk, n_slots);
+    row[chunk + 1] = row[chunk] + with_room_in_chunk(bodies_of[chunk].size(), n_to_come);
   }
   body.resize(row[n]);
   load.assign(row[n], {});

@@ -31,7 +31,7 @@ Point point(const Vec3 &x)
   return {x[0], x[1], x[2]};
 }
 
-Tree tree_of(const std::span<const Surface> surfaces)
+std::vector<Entry> boxes_of(const std::span<const Surface> surfaces)
 {
   std::vector<Entry> entries;
   std::int32_t first_feature = 0;
@@ -47,31 +47,62 @@ Tree tree_of(const std::span<const Surface> surfaces)
     }
     first_feature += static_cast<std::int32_t>(surface.n_features());
   }
-  return Tree(entries.begin(), entries.end()); // packed
+  return entries;
 }
 
 } // namespace
 
-VerletList parts_near_surfaces(const Particles &p, const std::span<const Surface> surfaces, const double range)
+struct FaceTree
+{
+  explicit FaceTree(const std::span<const Surface> surfaces) : tree(boxes_of(surfaces)) // packed
+  {
+    for (const Surface &surface : surfaces)
+    {
+      node.push_back(surface.node);
+      triangle.push_back(surface.topology.triangle);
+    }
+  }
+
+  bool holds_for(const std::span<const Surface> surfaces) const
+  {
+    return std::equal(surfaces.begin(), surfaces.end(), node.begin(), node.end(),
+                      [](const Surface &s, const std::vector<Vec3> &known) { return s.node == known; }) &&
+           std::equal(surfaces.begin(), surfaces.end(), triangle.begin(), triangle.end(),
+                      [](const Surface &s, const std::vector<Triangle> &known)
+                      { return s.topology.triangle == known; });
+  }
+
+  Tree tree;
+  std::vector<std::vector<Vec3>> node; // by surface [m]
+  std::vector<std::vector<Triangle>> triangle;
+};
+
+std::shared_ptr<const FaceTree> face_tree(const std::span<const Surface> surfaces,
+                                          const std::shared_ptr<const FaceTree> &known)
+{
+  return known && known->holds_for(surfaces) ? known : std::make_shared<const FaceTree>(surfaces);
+}
+
+VerletList parts_near_surfaces(const Particles &p, const std::span<const Surface> surfaces,
+                               const CandidateSearch &search, const FaceTree &faces)
 {
   VerletList list;
   const std::size_t n = p.parts.size();
   list.row.assign(n + 1, 0);
   if (surfaces.empty())
     return list;
-  const Tree tree = tree_of(surfaces);
   std::vector<std::vector<std::int32_t>> near(n);
   parallel_for(n,
                [&](const std::size_t k)
                {
-                 if (p.is_fixed(p.parts.particle[k]))
+                 if (p.is_fixed(p.parts.particle[k]) || !search.seeks(k))
                    return;
-                 const Vec3 centre = p.part_position(k);
-                 const double reach = p.parts.bounding_radius[k] + range;
+                 const Vec3 &centre = search.places[k];
+                 const double reach = p.parts.bounding_radius[k] + search.range;
                  const Vec3 around = Vec3::Constant(reach);
                  std::vector<Entry> found;
-                 tree.query(bg::index::intersects(Box(point(centre - around), point(centre + around))),
-                            std::back_inserter(found));
+                 faces.tree.query(bg::index::intersects(Box(point(centre - around), point(centre + around))),
+                                  std::back_inserter(found));
                  for (const auto &[box, face] : found)
                  {
                    const Surface &surface = surfaces[face.surface];

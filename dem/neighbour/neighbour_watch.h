@@ -4,6 +4,7 @@
 #include "dem/state/surface.h"
 #include "dem/state/wall.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,19 +14,34 @@ namespace bergamo::dem
 /// Tells when lists of candidates have to be renewed: once a particle or a wall may have come half the Verlet distance
 /// nearer to others than it was when they were built (Wellmann 3.48). Places are looked at only after the sum of the
 /// largest motions allows for it, which costs nothing in between.
+///
+/// Each particle has a place of its own that the lists count from. Where only some have strayed far from theirs, theirs
+/// alone are taken anew, and the lists need only follow for pairs with one of these. Others have at least half of their
+/// way before them, so there are about as many renewals as if all were looked at each time.
 class NeighbourWatch
 {
 public:
   double verlet_distance = 0.; ///< range beyond the bounding radii [m]
 
-  /// Takes the present places for those of the lists.
-  void lists_were_built(const Particles &particles, const std::vector<PlaneWall> &walls,
-                        std::span<const Surface> surfaces);
+  /// Takes the present places of all for those of the lists, which are to be renewed as a whole.
+  void take_all(const Particles &particles, const std::vector<PlaneWall> &walls, std::span<const Surface> surfaces);
+
+  /// Takes the present places of the particles that have strayed by more than half of what the lists allow for.
+  /// @return by part: whether it is one of these, for which the lists are to be renewed
+  std::vector<std::uint8_t> take_strayed(const Particles &particles);
 
   /// Whether the lists may miss a pair by now.
   bool must_renew(const Particles &particles, const std::vector<PlaneWall> &walls, std::span<const Surface> surfaces);
 
-  /// Where a particle was when the lists were built [m]; nothing known of it where it is too new.
+  /// Whether what must be renewed are the whole lists: where walls or surfaces have moved too far, and in periodic
+  /// cells, all of whose places change with the edges.
+  bool must_renew_all(const Particles &particles, const std::vector<PlaneWall> &walls,
+                      std::span<const Surface> surfaces) const;
+
+  /// Centres of all parts at the places that the lists count from [m].
+  std::vector<Vec3> part_places(const Particles &particles) const;
+
+  /// Where a particle was when the lists were built for it [m]; nothing known of it where it is too new.
   const Vec3 *place_when_built(const std::size_t i) const
   {
     return i < position_when_built.size() ? &position_when_built[i] : nullptr;
@@ -45,6 +61,8 @@ public:
 
 private:
   double displacement(const Particles &particles, std::size_t i) const;
+  double largest_displacement(const Particles &particles) const;
+  bool boundaries_have_moved(const std::vector<PlaneWall> &walls, std::span<const Surface> surfaces) const;
 
   double look_at_motion = 0.; // Particles::largest_motion below which nothing can have left its neighbours [m]
   std::vector<Vec3> position_when_built;

@@ -24,8 +24,9 @@ std::int32_t first_from(const std::vector<double> &values, const std::int32_t be
 
 } // namespace
 
-RowSearch::RowSearch(const SphereRows &rows, const double verlet_distance, const PeriodicCell &cell)
-    : rows(rows), verlet_distance(verlet_distance), cell(cell),
+RowSearch::RowSearch(const SphereRows &rows, const double verlet_distance, const PeriodicCell &cell,
+                     const std::span<const std::uint8_t> sought)
+    : rows(rows), verlet_distance(verlet_distance), cell(cell), sought(sought),
       rounding(cell.is_periodic() ? 1e-12 * cell.edges.maxCoeff() : 0.)
 {
 }
@@ -61,6 +62,17 @@ void RowSearch::go_to_layer(const SphereClass &new_size, const std::int32_t begi
         near_layers.push_back({other, layer->begin_rows, layer->end_rows, layer->begin_rows});
     }
   }
+}
+
+std::pair<std::int32_t, std::int32_t> RowSearch::of_interest(std::int32_t begin, std::int32_t end) const
+{
+  if (size != rows.classes.data()) // larger ones may be sought
+    return {begin, end};
+  while (begin < end && !is_sought(begin))
+    ++begin;
+  while (begin < end && !is_sought(end - 1))
+    --end;
+  return {begin, end};
 }
 
 template <class Visit>
@@ -124,9 +136,12 @@ void RowSearch::go_to_row(const std::int32_t begin, const std::int32_t end)
 
 void RowSearch::gather_larger(const std::int32_t begin, const std::int32_t end)
 {
-  n_larger = 0;
+  n_larger = n_larger_sought = 0;
   if (larger_rows.empty())
     return;
+  bool any_is_sought = false;
+  for (std::int32_t s = begin; s < end; ++s)
+    any_is_sought = any_is_sought || is_sought(s);
   const auto [low, high] = bounds(begin, end);
   const Vec3 centre = 0.5 * low + 0.5 * high, half = 0.5 * high - 0.5 * low;
   const SphereArrays &all = rows.spheres;
@@ -141,12 +156,18 @@ void RowSearch::gather_larger(const std::int32_t begin, const std::int32_t end)
   {
     for (std::int32_t s = first_from(all.place, row.begin, row.end, low_place);
          s < row.end && all.place[s] <= high_place; ++s)
-      if (is_in_reach(all.y[s], 1, row.reach) && is_in_reach(all.z[s], 2, row.reach))
-      {
-        if (larger.sphere.size() < static_cast<std::size_t>(n_larger + 1 + pack_width))
-          larger.resize(2 * n_larger + 1);
-        larger.put(n_larger++, all, s);
-      }
+    {
+      const bool s_is_sought = is_sought(s);
+      if (!(s_is_sought || any_is_sought) || !is_in_reach(all.y[s], 1, row.reach) ||
+          !is_in_reach(all.z[s], 2, row.reach))
+        continue;
+      if (larger.sphere.size() < static_cast<std::size_t>(n_larger + 1 + pack_width))
+        larger.resize(2 * n_larger + 1);
+      if (s_is_sought)
+        larger.put(n_larger, larger, n_larger_sought);
+      larger.put(s_is_sought ? n_larger_sought++ : n_larger, all, s);
+      ++n_larger;
+    }
   };
   const double length = cell.edges[0];
   for (const LargerRow &row : larger_rows)
@@ -193,7 +214,7 @@ void RowSearch::look_into(const Stretch &others, const std::int32_t of)
     {
       const std::int32_t partner = other.sphere[k + l];
       found[n_found] = partner;
-      n_found += math::lane(is_near, l) & (partner > others.least);
+      n_found += math::lane(is_near, l) & (partner > others.least || !(sought.empty() || sought[partner]));
     }
   }
 }
@@ -204,8 +225,11 @@ void RowSearch::find_partners(const std::int32_t of)
   const double place = all.place[of], reach = reach_to(*size);
   const bool is_periodic = cell.is_periodic();
   n_found = 0;
+  const bool of_is_sought = is_sought(of);
   for (NearRow &row : near_rows)
   {
+    if (!of_is_sought)
+      break;
     const Pack least(place - reach);
     for (int passed = pack_width; passed == pack_width && row.next < row.end; row.next += passed)
       passed = math::first_true(math::load(&all.place[row.next]) >= least);
@@ -215,7 +239,8 @@ void RowSearch::find_partners(const std::int32_t of)
     else
       look_into<false>({&all, row.next, row.end, place + reach, all.sphere[of]}, of);
   }
-  const Stretch all_larger{&larger, 0, n_larger, std::numeric_limits<double>::infinity(), -1};
+  const std::int32_t n = of_is_sought ? n_larger : n_larger_sought;
+  const Stretch all_larger{&larger, 0, n, std::numeric_limits<double>::infinity(), -1};
   if (is_periodic)
     look_into<true>(all_larger, of);
   else

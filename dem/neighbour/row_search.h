@@ -13,11 +13,15 @@ class RowSearch
 {
 public:
   /// All are kept by reference.
-  RowSearch(const SphereRows &rows, double verlet_distance, const PeriodicCell &cell);
+  /// @param sought spheres of which pairs have one at least; none given, all
+  RowSearch(const SphereRows &rows, double verlet_distance, const PeriodicCell &cell,
+            std::span<const std::uint8_t> sought = {});
 
-  /// Calls visit(i) with the index i of each sphere of [begin, end) in the order of rows, with its partners in `found`:
-  /// those of its own class and of greater index, and those in the classes of larger spheres. So every pair is found
-  /// once, and the many small spheres around a large one need not be gone through for it.
+  /// Calls visit(s) with the place s in the order of rows of spheres in [begin, end), with their partners in `found`:
+  /// those of a sphere's own class and of greater index, and those in the classes of larger spheres. So every pair is
+  /// found once, and the many small spheres around a large one need not be gone through for it. A sphere sought also
+  /// has the partners of its class that are not; others have larger spheres that are sought, and where there are none
+  /// they are passed over.
   template <class Visit>
   void for_each_sphere(const std::int32_t begin, const std::int32_t end, Visit &&visit)
   {
@@ -35,14 +39,18 @@ public:
                                              [&](const SphereRow &r) { return r.end <= begin; });
              row != end_rows && row->begin < end; ++row)
         {
-          const std::int32_t first = std::max(begin, row->begin), last = std::min(end, row->end);
+          const auto [first, last] = of_interest(std::max(begin, row->begin), std::min(end, row->end));
+          if (first == last)
+            continue;
           go_to_row(first, last);
           for (std::int32_t s = first; s < last; ++s)
           {
             if ((s - first) % piece == 0)
               gather_larger(s, std::min(s + piece, last));
+            if (!is_sought(s) && n_larger_sought == 0)
+              continue;
             find_partners(s);
-            visit(rows.spheres.sphere[s]);
+            visit(s);
           }
         }
       }
@@ -83,8 +91,13 @@ private:
     const SphereArrays *spheres;
     std::int32_t begin, end;
     double last_place;
-    std::int32_t least; ///< index of a partner
+    std::int32_t least; ///< index of a partner that is sought itself
   };
+
+  bool is_sought(const std::int32_t s) const { return sought.empty() || sought[rows.spheres.sphere[s]]; }
+
+  /// The spheres of [begin, end) in a row of the layer gone to among which any have partners.
+  std::pair<std::int32_t, std::int32_t> of_interest(std::int32_t begin, std::int32_t end) const;
 
   /// From a sphere of the class gone to [m].
   double reach_to(const SphereClass &other) const;
@@ -109,13 +122,14 @@ private:
   const SphereRows &rows;
   const double verlet_distance;
   const PeriodicCell &cell;
+  const std::span<const std::uint8_t> sought;
   const double rounding;             ///< of places in the cell and of numbers of rows, with room to spare [m]
   const SphereClass *size = nullptr; ///< of the layer gone to
   std::vector<NearLayer> near_layers;
   std::vector<NearRow> near_rows;
   std::vector<LargerRow> larger_rows;
-  SphereArrays larger; ///< that may be partners of the piece of a row, in no order
-  std::int32_t n_larger = 0;
+  SphereArrays larger; ///< that may be partners of the piece of a row, those sought before the others
+  std::int32_t n_larger = 0, n_larger_sought = 0;
 };
 
 } // namespace bergamo::dem

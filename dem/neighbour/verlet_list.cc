@@ -1,9 +1,10 @@
 #include "dem/neighbour/verlet_list.h"
 
-#include "dem/core/parallel.h"
+#include "dem/core/parallel_sum.h"
 #include "dem/neighbour/row_search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -27,14 +28,16 @@ void for_parts(const std::size_t n, Body &&body)
 }
 
 /// Finds the pairs of the spheres [begin, end) in the order of rows.
-Findings find_pairs(RowSearch &&search, const BoundingSpheres &spheres, const std::int32_t begin,
-                    const std::int32_t end)
+Findings find_pairs(RowSearch &&search, const BoundingSpheres &spheres, const SphereRows &rows,
+                    const std::int32_t begin, const std::int32_t end)
 {
   Findings findings;
+  findings.n_partners.resize(end - begin);
   const auto is_fixed = [&](const std::int32_t i) { return !spheres.masses.empty() && std::isinf(spheres.masses[i]); };
   search.for_each_sphere(begin, end,
-                         [&](const std::int32_t i)
+                         [&](const std::int32_t s)
                          {
+                           const std::int32_t i = rows.spheres.sphere[s];
                            const std::size_t n_before = findings.partners.size();
                            const bool i_is_fixed = is_fixed(i);
                            for (std::size_t k = 0; k < search.n_found; ++k)
@@ -49,17 +52,29 @@ Findings find_pairs(RowSearch &&search, const BoundingSpheres &spheres, const st
                              else
                                findings.turned.emplace_back(j, i);
                            }
-                           findings.n_partners.push_back(
-                               static_cast<std::int32_t>(findings.partners.size() - n_before));
+                           findings.n_partners[s - begin] =
+                               static_cast<std::int32_t>(findings.partners.size() - n_before);
                          });
   return findings;
 }
 
-void exclusive_sum(std::vector<std::int32_t> &counts)
+/// Calls body(i, j) for all pairs found from their second sphere, on all threads: several may belong to one i.
+template <class Body>
+void for_each_turned(const std::vector<Findings> &of_part, Body &&body)
 {
-  std::int32_t sum = 0;
-  for (std::int32_t &c : counts)
-    c = std::exchange(sum, sum + c);
+  parallel_ranges(of_part.size(), 1,
+                  [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t part = begin; part < end; ++part)
+                      for (const auto &[i, j] : of_part[part].turned)
+                        body(i, j);
+                  });
+}
+
+/// The number before one more is counted, whoever else counts.
+std::int32_t count_one(std::int32_t &count)
+{
+  return std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
 }
 
 } // namespace
@@ -74,23 +89,20 @@ VerletList build_verlet_list(const BoundingSpheres &spheres, const double verlet
   for_parts(n,
             [&](const std::size_t part, const std::size_t begin, const std::size_t end)
             {
-              of_part[part] = find_pairs(RowSearch(rows, verlet_distance, cell), spheres,
+              of_part[part] = find_pairs(RowSearch(rows, verlet_distance, cell, spheres.sought), spheres, rows,
                                          static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
               for (std::size_t s = begin; s < end; ++s)
                 list.row[rows.spheres.sphere[s]] = of_part[part].n_partners[s - begin];
             });
-  for (const Findings &findings : of_part)
-    for (const auto &[i, j] : findings.turned)
-      ++list.row[i];
+  for_each_turned(of_part, [&](const std::int32_t i, std::int32_t) { count_one(list.row[i]); });
   exclusive_sum(list.row);
 
   list.first.resize(list.row[n]);
   list.second.resize(list.row[n]);
   list.image.resize(list.row[n], own_image);
   std::vector<std::int32_t> next(list.row.begin(), list.row.end() - 1);
-  for (const Findings &findings : of_part)
-    for (const auto &[i, j] : findings.turned)
-      list.second[next[i]++] = j;
+  for_each_turned(of_part, // in any order: rows are sorted in the end
+                  [&](const std::int32_t i, const std::int32_t j) { list.second[count_one(next[i])] = j; });
   for_parts(n,
             [&](const std::size_t part, const std::size_t begin, const std::size_t end)
             {

@@ -21,8 +21,9 @@ struct VerletList
 };
 
 /// The list holds until any sphere has moved half of the Verlet distance (Wellmann 3.48). Pairs of two fixed spheres
-/// and of two spheres of one body are left out. The same bits on any number of threads; time and memory grow with the
-/// number of spheres and of pairs, wherever the spheres lie and however much their sizes differ.
+/// and of two spheres of one body are left out, and those of two that are not sought. The same bits on any number of
+/// threads; time and memory grow with the number of spheres and of pairs, wherever the spheres lie and however much
+/// their sizes differ.
 /// @param verlet_distance [m], >= 0
 /// @param cell in which all positions lie, if it is periodic, or outside by half of an edge less the largest range of
 /// two spheres at most; its edges at least twice as long as that range, so that a pair has one image at most

@@ -104,8 +104,18 @@ void Simulation::renew_neighbours()
                      std::to_string(least) + " m: begin with a larger cell or load it less");
     accounts.cell_work.sum += return_to_cell(particles);
   }
-  contacts.renew(particles, walls, surfaces, watch.verlet_distance);
-  watch.lists_were_built(particles, walls, surfaces);
+  contacts.renew(particles, walls, surfaces, {watch.verlet_distance});
+  watch.take_all(particles, walls, surfaces);
+  ++n_renewals;
+}
+
+/// The neighbours of those particles alone that have left theirs or will soon.
+void Simulation::renew_strayed()
+{
+  check_finite(); // places that are no numbers have no cell
+  const std::vector<std::uint8_t> strayed = watch.take_strayed(particles);
+  const std::vector<Vec3> places = watch.part_places(particles);
+  contacts.renew(particles, walls, surfaces, {watch.verlet_distance, places, strayed});
   ++n_renewals;
 }
 
@@ -137,8 +147,10 @@ void Simulation::compute_forces()
   {
     if (n_renewals - n_renewals_when_sorted >= p.sort_interval)
       sort_by_place();
-    else
+    else if (watch.must_renew_all(particles, walls, surfaces))
       renew_neighbours();
+    else
+      renew_strayed();
   }
   watch_of_phases.lap(times.neighbours);
 

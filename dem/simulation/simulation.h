@@ -158,6 +158,7 @@ private:
   void set_range();
   void check_cell() const;
   void renew_neighbours();
+  void renew_strayed();
   void move_walls(double drift);
   void load_surfaces();
   void move_surfaces(double drift);

@@ -29,8 +29,9 @@ struct Cloud
   std::vector<double> radii, masses = {};
   std::vector<std::int32_t> body = {};
   PeriodicCell cell = {};
+  std::vector<std::uint8_t> sought = {};
 
-  BoundingSpheres spheres() const { return {positions, radii, masses, body}; }
+  BoundingSpheres spheres() const { return {positions, radii, masses, body, sought}; }
   void add(const Vec3 &position, const double radius)
   {
     positions.push_back(position);
@@ -63,6 +64,8 @@ Pairs brute_force(const Cloud &c, const double verlet_distance)
       if (!c.masses.empty() && std::isinf(c.masses[i]) && std::isinf(c.masses[j]))
         continue;
       if (!c.body.empty() && c.body[i] == c.body[j])
+        continue;
+      if (!c.sought.empty() && !c.sought[i] && !c.sought[j])
         continue;
       const Vec3 line = c.positions[j] - c.positions[i];
       for (int image = 0; image < (c.cell.is_periodic() ? n_images : 1);
@@ -346,6 +349,23 @@ TEST_CASE("pairs of fixed grains and of parts of one body are left out")
     }
 }
 
+TEST_CASE("a Verlet list for some spheres holds the pairs that they have")
+{
+  for (const bool is_periodic : {false, true})
+    for (const Sizes &sizes : sizes_of_all_kinds)
+      for (const double share : {0., 0.01, 0.2, 0.9, 1.})
+        for (const bool the_large_ones : {false, true})
+        {
+          Cloud cloud = cloud_of_sizes(sizes, is_periodic, 11);
+          std::mt19937_64 generator(12);
+          for (const double radius : cloud.radii)
+            cloud.sought.push_back(std::uniform_real_distribution<double>(0., 1.)(generator) < share ||
+                                   (the_large_ones && radius > 0.5));
+          INFO(sizes.name << ", sought " << share);
+          check_list(cloud, 0.1);
+        }
+}
+
 TEST_CASE("the Verlet list is the same for any number of threads")
 {
   for (const bool is_periodic : {false, true})
@@ -357,6 +377,8 @@ TEST_CASE("the Verlet list is the same for any number of threads")
         radius = 0.5 * sizes.draw(generator);
       if (is_periodic)
         cloud.cell = PeriodicCell(Vec3::Constant(4.));
+      for (int i = 0; i < 9000; ++i)
+        cloud.sought.push_back(i % 3 == 0);
       std::vector<VerletList> lists;
       std::vector<std::vector<std::int32_t>> orders;
       for (const int n : {1, 2, 3, 8})

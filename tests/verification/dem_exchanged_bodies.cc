@@ -35,7 +35,7 @@ struct Pair
     for (int i = 0; i < 2; ++i) // spins about the normal and across it
       particles.angular_momentum[i] = particles.inertia[i].cwiseProduct(Vec3(0.5 - i, 1. + i, 3. + 2. * i));
     particles.weight = {0.4, 0.9};
-    contacts.renew(particles, {}, {}, range);
+    contacts.renew(particles, {}, {}, {range});
   }
 
   void step()
@@ -56,7 +56,7 @@ struct Pair
   void exchange()
   {
     contacts.reorder(particles.reorder({1, 0}), 2);
-    contacts.renew(particles, {}, {}, range);
+    contacts.renew(particles, {}, {}, {range});
   }
 };
 

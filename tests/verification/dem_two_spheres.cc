@@ -489,7 +489,7 @@ TEST_CASE("the forces of a pair that turns as one body turn with it")
     const Vec3 first(6e-8, -4e-8, 0.); // shear
     const std::vector<ContactLaw> laws = contact_laws(p.materials);
     Contacts contacts(p.materials.n_pairs());
-    contacts.renew(grains, {}, {}, radius);
+    contacts.renew(grains, {}, {}, {radius});
     PhaseTimes times;
     const auto force_on_first = [&]() -> Vec3
     {
