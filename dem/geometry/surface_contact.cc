@@ -237,11 +237,33 @@ SurfaceLook::Foot SurfaceLook::foot_on_vertex(const std::int32_t node)
   std::sort(tried.begin(), tried.end(), is_less_deep);
   if (!(tried[0].overlap > 0.))
     return tried[0]; // apart
+  // A place has its normal in the cone of the vertex, where the ends of its edges are lower.
+  const auto is_in_cone = [&](const Foot &foot)
+  {
+    constexpr double rounding = 1e-12;
+    const auto edges_around = surface.topology.edges_of(node);
+    return std::all_of(edges_around.begin(), edges_around.end(),
+                       [&](const std::int32_t e)
+                       {
+                         const SurfaceTopology::Edge &ends = surface.topology.edge[e];
+                         const Vec3 way = surface.node[ends.from == node ? ends.to : ends.from] - point;
+                         return foot.normal.dot(way) <= rounding * way.norm();
+                       });
+  };
   Foot least = foot_at(point, tried[0].normal);
+  bool least_is_in_cone = is_in_cone(least);
   for (std::size_t k = 1; k < tried.size(); ++k)
-    if ((tried[k].normal - tried[k - 1].normal).squaredNorm() > 1e-6)
-      if (const Foot other = foot_at(point, tried[k].normal); other.overlap < least.overlap)
-        least = other;
+  {
+    if ((tried[k].normal - tried[k - 1].normal).squaredNorm() <= 1e-6)
+      continue;
+    const Foot other = foot_at(point, tried[k].normal);
+    const bool other_is_in_cone = is_in_cone(other);
+    if (other_is_in_cone != least_is_in_cone ? other_is_in_cone : other.overlap < least.overlap)
+    {
+      least = other;
+      least_is_in_cone = other_is_in_cone;
+    }
+  }
   return least;
 }
 
