@@ -10,6 +10,10 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
 
 using namespace bergamo;
 using namespace bergamo::dem;
@@ -269,6 +273,70 @@ TEST_CASE("surfaces have the same bits on any number of threads and across a res
   }
   CHECK(hashes[0] == hashes[1]);
   CHECK(hashes[0] == hashes[2]);
+}
+
+TEST_CASE("grains on rough triangles touch at every step where the whole surface says that they do")
+{
+  // What rests without being looked at is woken in time: by its gap, by the contact that guards it, by one that ends.
+  const Threads one_thread(1);
+  const double roughness = GENERATE(0., 0.005, 0.05, 0.3);
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> unit(-1., 1.);
+  const dem::Surface terrain = sized(grid_surface(
+                                         12, [&](double, double) { return roughness * unit(random); }, 0.2, random),
+                                     mm);
+  Particles grains;
+  const Superquadric shapes[] = {
+      {Vec3::Constant(0.9 * mm), 1., 1.}, {Vec3(1.4, 1.1, 0.8) * mm, 0.6, 0.8}, {Vec3(0.5, 0.4, 1.6) * mm, 1.2, 1.1}};
+  for (int k = 0; k < 3; ++k)
+  {
+    grains.add(shapes[k], 2650., Vec3(3. + 3. * k, 6. + k, 1.6 + roughness) * mm,
+               Quaternion(Eigen::AngleAxisd(0.4 + k, Vec3(1., -0.5, 0.3).normalized())));
+    grains.velocity[k] = Vec3(0.05 * unit(random), 0.05 * unit(random), 0.);
+    grains.angular_momentum[k] = grains.inertia[k].cwiseProduct(40. * Vec3(unit(random), unit(random), unit(random)));
+  }
+  Simulation s = with_surface(parameters(0.3, 0.3), grains, terrain);
+  const SurfaceView view = s.surfaces[0].view();
+  std::vector<std::int32_t> all_faces(terrain.topology.n_faces());
+  std::iota(all_faces.begin(), all_faces.end(), 0);
+  int n_places = 0, n_missed = 0, n_begun = 0;
+  std::set<std::pair<int, int>> known;
+  for (int n = 0; n < 30000; ++n)
+  {
+    s.compute_forces();
+    std::map<std::pair<int, int>, double> touched; // overlap by particle and feature
+    for (const TouchingContact &c : s.contacts.touching_walls(s.particles))
+      touched[{c.first, c.feature}] = c.state.overlap;
+    std::set<std::pair<int, int>> now;
+    for (const auto &[pair, overlap] : touched)
+      now.insert(pair);
+    const bool has_changed = now != known;
+    known = now;
+    if (has_changed || n % 50 == 0)
+      for (int i = 0; i < 3; ++i)
+      {
+        const Particles &p = s.particles;
+        const BodyPose pose = make_pose(p.parts.shape[i], p.position[i], p.orientation[i]);
+        for (const SurfacePlace &place : find_surface_places(pose, view, all_faces))
+        {
+          const auto &t = terrain.topology;
+          const std::size_t offset = place.feature == Feature::face   ? 0
+                                     : place.feature == Feature::edge ? t.n_faces()
+                                                                      : t.n_faces() + t.n_edges();
+          const auto found = touched.find({i, static_cast<int>(offset) + place.number});
+          ++n_places;
+          n_missed +=
+              found == touched.end() || std::abs(found->second - place.overlap) > 1e-2 * place.overlap + 1e-8 * mm;
+        }
+      }
+    n_begun += has_changed;
+    s.kick();
+    s.drift();
+  }
+  CAPTURE(roughness, n_places, n_missed, n_begun);
+  CHECK(n_begun > 20);
+  CHECK(n_places > 1000);
+  CHECK(n_missed == 0);
 }
 
 TEST_CASE("a surface can be taken away from under its grains, and another come in its place")
