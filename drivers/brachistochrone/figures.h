@@ -17,7 +17,7 @@ struct SlideFigures
   double airborne = 0; ///< share of the steps in which the sphere touches nothing
   double n_steps = 0;
   double stable_step = 0; ///< shortest [s]
-  double largest_overlap = 0; ///< [m]
+  double largest_overlap_over_radius = 0;
   double energy_residual = 0; ///< largest miss of the balance over the work of gravity
   double n_undecided = 0;
 
@@ -36,7 +36,7 @@ struct SlideFigures
             {"airborne_share", &airborne},
             {"steps", &n_steps},
             {"stable_time_step_s", &stable_step},
-            {"max_overlap_m", &largest_overlap},
+            {"max_overlap_over_radius", &largest_overlap_over_radius},
             {"energy_residual", &energy_residual},
             {"undecided_contacts", &n_undecided}};
   }

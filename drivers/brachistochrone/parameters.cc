@@ -63,8 +63,8 @@ void SlideParameters::validate() const
       reject("Track/facets: ", facets[k], " follows ", facets[k - 1], "; give them from the least to the most");
   }
   if (const double least = 2. / 7. * drop / run; friction > 0. && friction < least)
-    reject("Track/friction is ", friction, ", with which the sphere slips down the plane; choose 0 (it slides), or at least ",
-           least, " (it rolls)");
+    reject("Track/friction is ", friction,
+           ", with which the sphere slips down the plane; choose 0 (it slides), or at least ", least, " (it rolls)");
 }
 
 std::vector<SlideSettings> SlideParameters::slides() const

@@ -5,6 +5,7 @@
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 
+#include <string>
 #include <vector>
 
 namespace bergamo::driver
@@ -15,6 +16,8 @@ struct SlideSettings
 {
   Curve curve;
   int n_facets;
+
+  std::string name() const { return (curve == Curve::plane ? "plane_" : "cycloid_") + std::to_string(n_facets); }
 };
 
 /// Everything that steers the slides. SI units.
@@ -24,11 +27,11 @@ struct SlideParameters
 
   double run = 0.2;  ///< horizontal, from start to end [m]
   double drop = 0.1; ///< [m]
-  std::vector<double> facets{10, 20, 40, 80, 160, 320};
+  std::vector<double> facets{10, 20, 40, 80, 160, 320, 640};
 
-  double radius = 0.01;   ///< [m]
-  double friction = 0.;   ///< of sphere and track
-  double gravity = 9.81;  ///< [m/s²]
+  double radius = 0.01;  ///< [m]
+  double friction = 0.;  ///< of sphere and track
+  double gravity = 9.81; ///< [m/s²]
   dem::SimulationParameters simulation;
   OutputParameters output;
 

@@ -20,7 +20,10 @@ public:
   explicit Plane(const Vec3 &end) : end_(end) {}
 
   Vec3 at(const double share) const override { return share * share * end_; }
-  double travel_time(const double gravity) const override { return end_.norm() * std::sqrt(2. / (gravity * -end_.z())); }
+  double travel_time(const double gravity) const override
+  {
+    return end_.norm() * std::sqrt(2. / (gravity * -end_.z()));
+  }
   double distance(const Vec3 &place, double) const override
   {
     return place.dot(end_.normalized().cross(Vec3::UnitY()));
@@ -64,12 +67,12 @@ double Cycloid::angle_to(const Vec3 &end)
 
 double Cycloid::distance(const Vec3 &place, const double share) const
 {
-  constexpr double reach = 0.2; // of the travel time, to both sides
+  constexpr double reach = 0.2;                                               // of the travel time, to both sides
   constexpr int half_of_the_digits = std::numeric_limits<double>::digits / 2; // what a least square can tell
   const auto square = [&](const double s) { return (place - at(s)).squaredNorm(); };
-  const double nearest = boost::math::tools::brent_find_minima(square, std::max(0., share - reach), share + reach,
-                                                               half_of_the_digits)
-                             .first;
+  const double nearest =
+      boost::math::tools::brent_find_minima(square, std::max(0., share - reach), share + reach, half_of_the_digits)
+          .first;
   const double t = 0.5 * angle_ * nearest;
   return (place - at(nearest)).dot(Vec3(std::cos(t), 0., std::sin(t)));
 }

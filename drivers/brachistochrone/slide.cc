@@ -23,8 +23,9 @@ std::unique_ptr<dem::Simulation> start(const SlideParameters &p, const Path &pat
   sphere.eps1 = sphere.eps2 = 1.;
   dem::Particles grains;
   grains.add(sphere, p.simulation.grain().density, path.at(0.), Quaternion::Identity());
-  auto simulation = std::make_unique<dem::Simulation>(p.simulation_parameters(), std::move(grains),
-                                                      std::vector<dem::PlaneWall>());
+  const dem::SimulationParameters parameters = p.simulation_parameters();
+  grains.velocity[0] = -0.5 * parameters.time_step * parameters.gravity; // half a step before it is at rest
+  auto simulation = std::make_unique<dem::Simulation>(parameters, std::move(grains), std::vector<dem::PlaneWall>());
   simulation->add_surface(make_track(path, n_facets, p.radius));
   return simulation;
 }
@@ -78,7 +79,7 @@ void Slide::look()
     ++n_airborne;
   f.airborne = static_cast<double>(n_airborne) / static_cast<double>(n_looks);
   for (const dem::TouchingContact &contact : simulation->contacts.touching_walls(simulation->particles))
-    f.largest_overlap = std::max(f.largest_overlap, contact.state.overlap);
+    f.largest_overlap_over_radius = std::max(f.largest_overlap_over_radius, contact.state.overlap / parameters.radius);
 }
 
 void Slide::look_at_energy()

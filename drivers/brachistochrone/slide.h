@@ -18,13 +18,13 @@ public:
   Slide(const SlideParameters &parameters, const SlideSettings &settings);
 
   dem::Simulation &grains() { return *simulation; }
-  double time() const { return simulation->time; } ///< [s]
+  double time() const { return simulation->time; }        ///< [s]
   double exact_travel_time() const { return exact_time; } ///< [s]
   bool has_arrived() const { return f.travel_time > 0.; }
 
   /// @name Of the present step, between kick and drift
   /// @{
-  void look();      ///< compares it with the closed form, while both are on their way
+  void look(); ///< compares it with the closed form, while both are on their way
   void look_at_energy();
   /// @}
 
