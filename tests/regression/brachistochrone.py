@@ -151,7 +151,7 @@ class Results(Case):
         self.assertLess(figures["energy_residual"], 1e-4)  # of first order in the step: friction where contacts change
 
     def test_files(self):
-        """A folder for each slide, and its pictures; no stage shows a rate of none."""
+        """A folder for each slide, with pictures of sphere and track; no stage shows a rate of none."""
         command = self.command(self.tmp / "files", ["Track/facets=20, 40"])
         command.remove("--no-plots")
         command.remove("--quiet")
@@ -162,7 +162,8 @@ class Results(Case):
         for curve in ("plane_20", "plane_40", "cycloid_20", "cycloid_40"):
             folder = self.tmp / "files" / "slides" / curve
             self.assertEqual(sorted(path.name for path in folder.iterdir()),
-                             ["grains.pvd", "grains_0000.vtu", "grains_0001.vtu", "history.csv"])
+                             ["grains.pvd", "grains_0000.vtu", "grains_0001.vtu", "history.csv", "surfaces.pvd",
+                              "surfaces_0000.vtu", "surfaces_0001.vtu"])
             self.assertEqual(n_rows(folder / "history.csv"), 51)
 
     def test_threads(self):
