@@ -1,4 +1,5 @@
-"""What run.py breaks: one place at least in each file of fe_dealii/ and of drivers/common that decides anything."""
+"""What run.py breaks: one place at least in each file of fe_dealii/ and of drivers/common that decides anything, and
+single drivers."""
 
 from typing import NamedTuple
 
@@ -10,6 +11,8 @@ TESTS = {
     "verification_fe": ["{build}/tests/verification/verification_fe", "{tests}"],
     "strip_footing": ["/usr/bin/python3", "{tree}/tests/regression/strip_footing.py", "{build}/drivers/strip_footing",
                       "{tests}"],
+    "brachistochrone": ["/usr/bin/python3", "{tree}/tests/regression/brachistochrone.py",
+                        "{build}/drivers/brachistochrone", "{tests}"],
     "rve_triaxial": ["/usr/bin/python3", "{tree}/tests/regression/rve_triaxial.py", "{build}/drivers/rve_triaxial",
                      "{tests}"],
 }
@@ -253,4 +256,23 @@ MUTATIONS = [
         ("material/tensor.h", "return std::sqrt(normal + 0.5 * (strain[3]", "return std::sqrt(normal + (strain[3]",
          "Hypoplastic sand*"),
     ),
+    *in_folder(
+        "drivers/brachistochrone", "brachistochrone",
+        ("parameters.cc", "p.with_walls().friction = friction;", "", "Results.test_rolling"),
+        ("parameters.h", "5. / 7. * gravity", "gravity", "Results.test_rolling"),
+        ("path.cc", "Vec3(t - std::sin(t), 0., -(1. - std::cos(t)))", "Vec3(t, 0., -(1. - std::cos(t)))",
+         "Results.test_sliding"),
+        ("path.cc", "0.5 * angle_ * nearest", "angle_ * nearest", "Results.test_without_bounces"),
+        ("report.cc", "max(run.energy_residual, f.energy_residual)", "max(run.energy_residual, f.airborne)",
+         "Results.test_sliding"),
+        ("slide.cc", "-0.5 * parameters.time_step * parameters.gravity", "Vec3::Zero()", "Results.test_start"),
+        ("slide.cc", "++n_airborne;", "", "Results.test_bounces"),
+        ("slide.cc", "visit(\"n_airborne\", n_airborne);", "", "Restart"),
+        ("slide.cc", "residual.visit(visit);", "", "Restart"),
+        ("track.cc", "(normal[k - 1] + normal[k]) / (1. + normal[k - 1].dot(normal[k]))", "normal[k]",
+         "Results.test_sliding"),
+    ),
+    *in_folder("drivers/common/run", "brachistochrone",
+               ("run.cc", "loop_.steps_here(), stage.n_particles", "loop_.step(), stage.n_particles",
+                "Results.test_files")),
 ]

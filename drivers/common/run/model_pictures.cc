@@ -1,6 +1,8 @@
 #include "drivers/common/run/model_pictures.h"
 
+#include "dem/io/surface_vtu.h"
 #include "dem/io/vtu.h"
+#include "dem/measure/surface_stress.h"
 #include "dem/simulation/simulation.h"
 #include "fe_dealii/output.h"
 
@@ -18,6 +20,12 @@ void write_grains(const dem::Simulation &grains, const std::filesystem::path &pa
   dem::write_grains_vtu(grains.particles, fields, path);
 }
 
+void write_surfaces(const dem::Simulation &grains, const std::filesystem::path &path)
+{
+  const std::vector<dem::TouchingContact> contacts = grains.contacts.touching_walls(grains.particles);
+  dem::write_surfaces_vtu(grains.surfaces, dem::surface_stress(grains.surfaces, contacts), path);
+}
+
 } // namespace
 
 std::vector<Picture> pictures_of(const dem::Simulation *grains, const fe::ExplicitBody *body)
@@ -25,6 +33,8 @@ std::vector<Picture> pictures_of(const dem::Simulation *grains, const fe::Explic
   std::vector<Picture> pictures;
   if (grains)
     pictures.emplace_back("grains", [grains](const auto &path) { write_grains(*grains, path); });
+  if (grains && !grains->surfaces.empty())
+    pictures.emplace_back("surfaces", [grains](const auto &path) { write_surfaces(*grains, path); });
   if (body)
     pictures.emplace_back("continuum", [body](const auto &path) { fe::write_vtu(*body, path); });
   return pictures;

@@ -64,7 +64,9 @@ Stage Run::even_stage(const std::string &name, const std::int64_t n_steps, const
 
 bool Run::advance(const Stage &stage, std::vector<Action> actions)
 {
-  const auto here = [&] { return ProgressState{stage.fraction(), stage.time(), loop_.step(), stage.n_particles}; };
+  const auto here = [&] {
+    return ProgressState{stage.fraction(), stage.time(), loop_.steps_here(), stage.n_particles};
+  };
   actions.push_back({either(every_wall_time(display_interval), at_the_end()), [&] { progress_.update(here()); }});
   progress_.begin_stage(stage.name, here());
   if (!loop_.run(stage, actions))
