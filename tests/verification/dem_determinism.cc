@@ -232,6 +232,8 @@ TEST_CASE("10 000 steps of pouring grains have the same bits on 1, 2, 3 and 8 th
     pouring.go_on(s, Pouring::n_steps / 2);
     CAPTURE(n);
     CHECK(hash_without_ids(s) == one.middle);
+    if (n > 2) // more threads than processors mostly wait
+      continue;
     pouring.go_on(s, Pouring::n_steps);
     CHECK(hash_without_ids(s) == one.end);
     CHECK(s.particles.id == one.ids);
