@@ -264,7 +264,7 @@ MUTATIONS = [
          "Results.test_sliding"),
         ("path.cc", "0.5 * angle_ * nearest", "angle_ * nearest", "Results.test_without_bounces"),
         ("report.cc", "max(run.energy_residual, f.energy_residual)", "max(run.energy_residual, f.airborne)",
-         "Results.test_sliding"),
+         "Results.test_energy_over_edges"),
         ("slide.cc", "-0.5 * parameters.time_step * parameters.gravity", "Vec3::Zero()", "Results.test_start"),
         ("slide.cc", "++n_airborne;", "", "Results.test_bounces"),
         ("slide.cc", "visit(\"n_airborne\", n_airborne);", "", "Restart"),

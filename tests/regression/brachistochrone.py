@@ -104,8 +104,17 @@ class Results(Case):
         self.assertTrue(all(order > 1.8 for order in figures["cycloid_distance_orders"][:3]), figures)
         times = figures["cycloid_travel_times_s"]
         self.assertEqual(times, sorted(times, reverse=True))
-        self.assertLess(figures["energy_residual"], 1e-11)  # rounding
         self.assertEqual(figures["undecided_contacts"], 0)
+        for slide in self.slides("sliding"):
+            if not slide["cycloid"] or slide["facets"] <= 80:
+                self.assertLess(slide["energy_residual"], 1e-11)  # rounding
+
+    def test_energy_over_edges(self):
+        """Where the sphere is on several facets and edges at once, the balance closes to third order in the step."""
+        residuals = [self.figures(step, ["Track/facets=320", "Sphere/relaxation time=0", f"Output/time step={step}"])
+                     ["energy_residual"] for step in ("8e-6", "4e-6")]
+        self.assertLess(residuals[1], 1e-7)
+        self.assertTrue(residuals[1] < 1e-11 or residuals[1] < residuals[0] / 6, residuals)
 
     def test_start(self):
         """It is at rest at time 0, whatever the step: travel times do not follow half a step of fall."""
@@ -148,7 +157,7 @@ class Results(Case):
         self.assert_below(figures["cycloid_z_differences_m"], 1e-3)
         self.assert_below(figures["cycloid_z_differences_m"][1:], 1e-5)
         self.assert_below(figures["cycloid_x_differences_m"][1:], 2e-5)
-        self.assertLess(figures["energy_residual"], 1e-4)  # of first order in the step: friction where contacts change
+        self.assertLess(figures["energy_residual"], 1e-6)
 
     def test_files(self):
         """A folder for each slide, with pictures of sphere and track; no stage shows a rate of none."""
