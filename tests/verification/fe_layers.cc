@@ -167,7 +167,9 @@ TEST_CASE("a layered body of equal materials is the homogeneous one, bit for bit
   hochstetten.initial_void_ratio = 0.7;
   const Material material = GENERATE_COPY(Material(sand), Material(rubber), Material(HypoplasticSand(hochstetten)));
   ExplicitBodyParameters parameters;
-  set_shape(parameters, GENERATE(Shape::plain, Shape::bending, Shape::quadratic));
+  const Shape shape = GENERATE(Shape::plain, Shape::bending, Shape::quadratic);
+  set_shape(parameters, shape);
+  const int n_steps = shape == Shape::quadratic ? 60 : 300; // 27 points cost some ten times as much
   parameters.gravity = {0, 0, -gravity};
   parameters.damping = 3;
   if (!std::holds_alternative<NeoHooke>(material))
@@ -185,7 +187,7 @@ TEST_CASE("a layered body of equal materials is the homogeneous one, bit for bit
   {
     body->prescribe_velocity(4u, 2);
     body->prescribe_velocity(5u, 2, -0.3);
-    for (int k = 0; k < 300; ++k)
+    for (int k = 0; k < n_steps; ++k)
     {
       body->compute_internal_force();
       body->kick(dt);
