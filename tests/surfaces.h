@@ -2,6 +2,7 @@
 
 #include "dem/geometry/surface_contact.h"
 #include "dem/packing/distribution.h"
+#include "dem/simulation/simulation_parameters.h"
 
 #include <cmath>
 #include <numeric>
@@ -10,6 +11,18 @@
 
 namespace bergamo::dem::test
 {
+
+/// Soft grains, of one material with what they touch, under gravity.
+inline SimulationParameters soft_grains(const double friction, const double damping)
+{
+  SimulationParameters p;
+  p.grain() = p.wall() = {1e8, 0.3, 2650.};
+  p.between_grains().friction = p.with_walls().friction = friction;
+  p.set_damping(damping);
+  p.gravity = Vec3(0., 0., -9.81);
+  p.time_step = 2e-6;
+  return p;
+}
 
 /// A surface with its nodes.
 struct Surface

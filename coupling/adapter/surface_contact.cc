@@ -56,6 +56,8 @@ SurfaceContact::SurfaceContact(GrainsMover &grains, RigidMover &body, const std:
           own.node.size(), "that of the body's vertices, " + std::to_string(body.body().n_vertices()));
   own.is_rigid = true;
   own.velocity.assign(own.node.size(), Vec3::Zero()); // the nodes are moved by follow()
+  if (own.force.empty())
+    own.force = grains.simulation().node_forces(surface); // forces of this step may be known already
   grains.share_surface(surface);
 }
 

@@ -14,7 +14,7 @@ dem::Surface surface_of(const fe::RigidBody &body);
 
 /// Contact of grains with a rigid body that moves by itself: the body's surface is one of the simulation's, follows the
 /// body, and what grains exert on it acts on the body. Forces and moments on both sides are the same to rounding, and
-/// what one side loses in energy the other gains.
+/// what one side loses in energy the other gains. Surfaces must not be removed from the simulation meanwhile.
 class SurfaceContact final : public Coupling
 {
 public:

@@ -42,8 +42,7 @@ void Simulation::add_surface(Surface surface)
 
 void Simulation::remove_surface(const std::int32_t index)
 {
-  require(index >= 0 && index < static_cast<std::int32_t>(surfaces.size()), "number of the surface to be removed",
-          index, "below the number of surfaces, counted from 0");
+  require_surface(index, "number of the surface to be removed");
   accounts.removed_wall_work += surfaces[index].work;
   for (const TouchingContact &contact : contacts.touching_walls(particles))
     if (contact.feature >= 0 && feature_of(surfaces, contact.feature).surface == index)

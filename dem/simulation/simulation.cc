@@ -244,10 +244,17 @@ std::vector<std::vector<Vec3>> Simulation::forces_of_moving() const
   return dem::node_forces(particles, contacts, surfaces, keeps_forces);
 }
 
+void Simulation::require_surface(const std::int32_t index, const char *what) const
+{
+  require(index >= 0 && index < static_cast<std::int32_t>(surfaces.size()), what, index,
+          "that of one of the " + std::to_string(surfaces.size()) + " surfaces, counted from 0");
+}
+
 std::vector<Vec3> Simulation::node_forces(const std::int32_t surface) const
 {
+  require_surface(surface, "number of the surface whose forces are asked for");
   std::vector<bool> is_wanted(surfaces.size(), false);
-  is_wanted.at(surface) = true;
+  is_wanted[surface] = true;
   return std::move(dem::node_forces(particles, contacts, surfaces, is_wanted)[surface]);
 }
 

@@ -77,7 +77,7 @@ public:
   /// As remove_wall(); later surfaces move up by one.
   void remove_surface(std::int32_t index);
 
-  /// At this step, once its forces are known. @{
+  /// At this step, once its forces are known. Throws ConfigError for a surface that is not there. @{
   std::vector<Vec3> node_forces(std::int32_t surface) const; ///< by node [N]
   std::vector<SurfaceLoad> surface_loads() const;            ///< by surface
   /// @}
@@ -160,6 +160,7 @@ private:
   void renew_neighbours();
   void renew_strayed();
   void move_walls(double drift);
+  void require_surface(std::int32_t index, const char *what) const;
   void load_surfaces();
   void move_surfaces(double drift);
   std::vector<std::vector<Vec3>> forces_of_moving() const;

@@ -68,6 +68,8 @@ void Surface::advance(const double time_step)
   if (fastest == 0.)
     drift_velocity.clear();
   motion += time_step * std::sqrt(fastest);
+  if (!keeps_forces())
+    force.clear(); // should it move again, these were not those of the step before
 }
 
 void Surface::move_to(const std::span<const Vec3> places, const double time_step)

@@ -6,17 +6,14 @@ Usage: brachistochrone.py PROGRAM [TOPIC]
 """
 
 import csv
-import json
 import math
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-from driver_process import SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
+from driver_process import DriverCase, SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 FOLDER = Path(__file__).resolve().parents[2] / "drivers" / "brachistochrone"
@@ -55,23 +52,12 @@ def time_without_bounces(facets):
     return time
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        self.tmp = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.tmp, True)
+class Case(DriverCase):
+    program, parameters = PROGRAM, SMOKE
 
-    def command(self, output, settings=(), *options, file=SMOKE):
-        words = [word for setting in settings for word in ("--set", setting)]
-        return [str(PROGRAM), str(file), "--output", str(output), "--no-plots", "--quiet", *words, *options]
-
-    def run_driver(self, *arguments, **files):
-        return subprocess.run(self.command(*arguments, **files), capture_output=True, text=True)
-
-    def figures(self, name, settings=(), *options, file=SMOKE):
-        result = self.run_driver(self.tmp / name, settings, *options, file=file)
-        self.assertEqual(result.returncode, 0, result.stderr)
+    def check_success(self, result):
+        super().check_success(result)
         self.assertEqual(result.stderr, "")
-        return json.loads((self.tmp / name / "summary.json").read_text())
 
     def slides(self, name):
         with open(self.tmp / name / "slides.csv", newline="") as file:

@@ -1,9 +1,14 @@
-"""Runs of a driver that are stopped at an event, however fast the machine is."""
+"""Runs of a driver as a user starts them, and such that are stopped at an event, however fast the machine is."""
 
+import json
 import os
+import shutil
 import signal
 import subprocess
+import tempfile
 import time
+import unittest
+from pathlib import Path
 
 # A snapshot as often as the driver looks at the clock, so that steps decide when there is one.
 SNAPSHOTS_BY_STEPS = ["--set", "Output/snapshot interval=1e-9"]
@@ -48,3 +53,30 @@ def n_rows(history, wanted=lambda row: True):
     except FileNotFoundError:
         return 0
     return sum(wanted(line.split(",")) for line in lines)
+
+
+class DriverCase(unittest.TestCase):
+    """Runs of one driver into a folder that goes with the test. A subclass names its program and parameter file."""
+
+    program = parameters = None
+
+    def setUp(self):
+        self.tmp = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.tmp, True)
+
+    def command(self, output, settings=(), *options, file=None):
+        words = [word for setting in settings for word in ("--set", setting)]
+        return [str(self.program), str(file or self.parameters), "--output", str(output), "--no-plots", "--quiet", *words,
+                *options]
+
+    def run_driver(self, *arguments, **files):
+        return subprocess.run(self.command(*arguments, **files), capture_output=True, text=True)
+
+    def figures(self, name, settings=(), *options, file=None):
+        """The summary of a run that must succeed, in the folder of that name."""
+        result = self.run_driver(self.tmp / name, settings, *options, file=file)
+        self.check_success(result)
+        return json.loads((self.tmp / name / "summary.json").read_text())
+
+    def check_success(self, result):
+        self.assertEqual(result.returncode, 0, result.stderr)

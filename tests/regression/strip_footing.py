@@ -9,16 +9,14 @@ import csv
 import json
 import os
 import shlex
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
 
-from driver_process import SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
+from driver_process import DriverCase, SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 FOLDER = Path(__file__).resolve().parents[2] / "drivers" / "strip_footing"
@@ -30,22 +28,8 @@ STIFFENING = ["Ground/surcharge=10e3", "Continuum/friction angle=35", "Continuum
               "Continuum/cohesion=1e3", "Continuum/reference pressure=100e3", "Continuum/stiffness exponent=1"]
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        self.tmp = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.tmp, True)
-
-    def command(self, output, settings=(), *options, file=SMOKE):
-        words = [word for setting in settings for word in ("--set", setting)]
-        return [str(PROGRAM), str(file), "--output", str(output), "--no-plots", "--quiet", *words, *options]
-
-    def run_driver(self, *arguments, **files):
-        return subprocess.run(self.command(*arguments, **files), capture_output=True, text=True)
-
-    def figures(self, name, settings=(), *options, file=SMOKE):
-        result = self.run_driver(self.tmp / name, settings, *options, file=file)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads((self.tmp / name / "summary.json").read_text())
+class Case(DriverCase):
+    program, parameters = PROGRAM, SMOKE
 
 
 class Results(Case):

@@ -3,6 +3,8 @@
 #include "coupling/adapter/surface_contact.h"
 #include "coupling/model/model.h"
 
+#include "tests/surfaces.h"
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -17,12 +19,11 @@ namespace
 
 constexpr double mm = 1e-3, density = 2650.;
 
+/// Without gravity.
 dem::SimulationParameters parameters(const double friction, const double damping, const double time_step)
 {
-  dem::SimulationParameters p;
-  p.grain() = p.wall() = {1e8, 0.3, density};
-  p.between_grains().friction = p.with_walls().friction = friction;
-  p.set_damping(damping);
+  dem::SimulationParameters p = dem::test::soft_grains(friction, damping);
+  p.gravity.setZero();
   p.time_step = time_step;
   return p;
 }
@@ -193,6 +194,29 @@ TEST_CASE("a sphere rebounds from a free cuboid of triangles as two masses do")
   CHECK(s.grains->simulation().particles.velocity[0][2] == Approx(0.1 * (m1 - m2) / (m1 + m2)).margin(2e-6));
   CHECK(s.body->body().velocity()[2] == Approx(0.1 * 2. * m1 / (m1 + m2)).margin(2e-6));
   CHECK(std::abs(s.body->body().angular_velocity()[0]) < 1e-9);
+}
+
+TEST_CASE("a body may take its surface when the grains' forces are known already")
+{
+  dem::Particles grains;
+  grains.add({Vec3::Constant(mm), 1., 1.}, density, Vec3(0., 0., -0.99) * mm, Quaternion::Identity());
+  const fe::RigidBodyShape block = cuboid(Vec3(0., 0., 1.) * mm, Vec3(4., 4., 2.) * mm);
+  GrainsAndBody s(parameters(0., 0., 1e-6), grains, block);
+  Model late;
+  GrainsMover &mover = late.add(std::make_unique<GrainsMover>(
+      std::make_unique<dem::Simulation>(parameters(0., 0., 1e-6), grains, std::vector<dem::PlaneWall>())));
+  RigidMover &body = late.add(std::make_unique<RigidMover>(block));
+  mover.simulation().add_surface(surface_of(body.body()));
+  mover.simulation().compute_forces();
+  REQUIRE(mover.simulation().contacts.n_touching_walls() == 1);
+  late.add(std::make_unique<SurfaceContact>(mover, body, 0));
+  for (int n = 0; n < 10; ++n)
+  {
+    s.step();
+    late.step(1e-6);
+  }
+  CHECK(body.body().velocity()[2] > 0.);
+  CHECK(body.body().velocity() == s.body->body().velocity());
 }
 
 TEST_CASE("a surface contact asks for the body's own surface")

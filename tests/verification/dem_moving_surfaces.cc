@@ -3,6 +3,7 @@
 #include "dem/motion/surface_path.h"
 #include "dem/simulation/simulation.h"
 
+#include "tests/surfaces.h"
 #include "tests/threads.h"
 
 #include <catch2/catch.hpp>
@@ -14,22 +15,12 @@
 
 using namespace bergamo;
 using namespace bergamo::dem;
+using bergamo::dem::test::soft_grains;
 
 namespace
 {
 
 constexpr double mm = 1e-3, gravity = 9.81, pi = std::numbers::pi;
-
-SimulationParameters parameters(const double friction, const double damping)
-{
-  SimulationParameters p;
-  p.grain() = p.wall() = {1e8, 0.3, 2650.};
-  p.between_grains().friction = p.with_walls().friction = friction;
-  p.set_damping(damping);
-  p.gravity = Vec3(0., 0., -gravity);
-  p.time_step = 2e-6;
-  return p;
-}
 
 /// Inside of a cylinder along y about the origin, of n facets that touch its radius from inside and outside alike.
 Surface drum(const double radius, const double length, const int n)
@@ -53,7 +44,7 @@ Surface drum(const double radius, const double length, const int n)
 double error_in_drum(const int n_facets, const double spin)
 {
   const double radius = 10. * mm, grain_radius = mm, distance = radius - grain_radius, start = 0.5;
-  SimulationParameters p = parameters(1., 0.7);
+  SimulationParameters p = soft_grains(1., 0.7);
   Particles grains;
   const Superquadric sphere{Vec3::Constant(grain_radius), 1., 1.};
   grains.add(sphere, 2650., Vec3(std::sin(start), 0., -std::cos(start)) * distance, Quaternion::Identity());
@@ -150,7 +141,7 @@ TEST_CASE("a box of 1200 triangles lets a grain rebound as a box of planes does"
   // it slides across makes more of it: 1e-4 mm was found after ten bounces.
   const Threads one_thread(1);
   const double edge = 10. * mm;
-  SimulationParameters p = parameters(0.3, 0.01);
+  SimulationParameters p = soft_grains(0.3, 0.01);
   p.gravity.setZero();
   p.contact.overlap_tolerance = 0.;
   std::mt19937_64 random(5);

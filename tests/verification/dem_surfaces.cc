@@ -24,17 +24,6 @@ namespace
 
 constexpr double mm = 1e-3, gravity = 9.81;
 
-SimulationParameters parameters(const double friction, const double damping)
-{
-  SimulationParameters p;
-  p.grain() = p.wall() = {1e8, 0.3, 2650.};
-  p.between_grains().friction = p.with_walls().friction = friction;
-  p.set_damping(damping);
-  p.gravity = Vec3(0., 0., -gravity);
-  p.time_step = 2e-6;
-  return p;
-}
-
 /// A surface of the tests in another size, e.g. of millimetres, turned about the origin.
 dem::Surface sized(const test::Surface &surface, const double size, const Mat3 &turn = Mat3::Identity())
 {
@@ -89,7 +78,7 @@ TEST_CASE("a grain on triangles of one plane moves as on the plane")
       Particles grains;
       grains.add(shape, 2650., Vec3(-1. * mm, -0.5 * mm, 1.05 * mm), Quaternion(Eigen::AngleAxisd(0.1, Vec3::UnitX())));
       grains.velocity[0] = Vec3(0.08, 0.05, -0.01);
-      SimulationParameters p = parameters(0.3, 0.3);
+      SimulationParameters p = soft_grains(0.3, 0.3);
       p.contact.overlap_tolerance = 0.; // the same searches in both
       Simulation on_plane(p, grains, {PlaneWall()}), on_mesh = with_surface(p, grains, flat(n, jitter));
       double farthest = 0., most = 0.;
@@ -119,7 +108,7 @@ TEST_CASE("a sphere in a V of triangles presses both sides by m g / (2 sin)")
   const double slope = 0.7;
   Particles grains;
   grains.add(sphere, 2650., Vec3(0., 0.3 * mm, mm / std::cos(slope)), Quaternion::Identity());
-  Simulation s = with_surface(parameters(0., 0.5), grains, sized(ridge(-slope), mm));
+  Simulation s = with_surface(soft_grains(0., 0.5), grains, sized(ridge(-slope), mm));
   for (int n = 0; n < 40000; ++n)
     s.step();
   s.compute_forces();
@@ -146,7 +135,7 @@ TEST_CASE("grains on rough triangles keep their energy account and press with th
       grains.add(k % 2 ? sphere : rounded, 2650.,
                  Vec3((k % 2) * 3.2 - 1.6, (k / 2 % 2) * 3.2 - 1.6, 2.6 + 3.2 * (k / 4)) * mm,
                  draw_orientation(random));
-    SimulationParameters p = parameters(damping == 0. ? 0. : 0.4, damping);
+    SimulationParameters p = soft_grains(damping == 0. ? 0. : 0.4, damping);
     p.time_step = 1e-6;
     Simulation s = with_surface(p, grains, sized(bowl, mm));
     double weight = 0.;
@@ -191,7 +180,7 @@ TEST_CASE("friction holds on tilted triangles as on the plane: up to its angle, 
     Particles grains;
     Superquadric block{Vec3(1.5 * mm, 1.2 * mm, 0.7 * mm), 0.5, 0.5};
     grains.add(block, 2650., tilt * Vec3(-1. * mm, 0.2 * mm, 0.7 * mm), Quaternion(tilt));
-    const SimulationParameters p = parameters(friction, 0.5);
+    const SimulationParameters p = soft_grains(friction, 0.5);
     PlaneWall plane;
     plane.normal = tilt.col(2);
     Simulation on_plane(p, grains, {plane}), on_mesh = with_surface(p, grains, flat(40, 0.24, tilt));
@@ -220,14 +209,18 @@ TEST_CASE("a surface that moves carries what lies on it as a plane does, and boo
   const Threads one_thread(1);
   Particles grains;
   grains.add(rounded, 2650., Vec3(0.3 * mm, 0.2 * mm, 1.05 * mm), Quaternion::Identity());
-  const SimulationParameters p = parameters(0.5, 0.5);
+  const SimulationParameters p = soft_grains(0.5, 0.5);
   Simulation on_plane(p, grains, {PlaneWall()}), on_mesh = with_surface(p, grains, flat(20, 0.24));
   const Vec3 velocity(0.01, -0.005, 0.002); // up to it and on
-  const int n_steps = 50000, n_ramp = 10000;
+  const int n_steps = 50000, n_ramp = 10000, pause = 30000, end_of_pause = 32000;
   for (int n = 0; n < n_steps; ++n)
   {
-    const Vec3 now = velocity * std::min(1., double(n) / n_ramp);
-    on_mesh.surfaces[0].velocity.assign(on_mesh.surfaces[0].node.size(), now);
+    const bool rests = n >= pause && n < end_of_pause; // meanwhile forces change, and are not kept
+    const Vec3 now = rests ? Vec3(Vec3::Zero()) : Vec3(velocity * std::min(1., double(n) / n_ramp));
+    if (rests)
+      on_mesh.surfaces[0].velocity.clear();
+    else
+      on_mesh.surfaces[0].velocity.assign(on_mesh.surfaces[0].node.size(), now);
     on_plane.walls[0].velocity = now;
     on_mesh.step();
     on_plane.step();
@@ -249,7 +242,7 @@ TEST_CASE("surfaces have the same bits on any number of threads and across a res
   for (int k = 0; k < 48; ++k)
     grains.add(k % 2 ? sphere : rounded, 2650.,
                Vec3(0.8 + 2.8 * (k % 4), 0.8 + 2.8 * (k / 4 % 4), 1.8 + 3.1 * (k / 16)) * mm, draw_orientation(random));
-  SimulationParameters p = parameters(0.3, 0.3);
+  SimulationParameters p = soft_grains(0.3, 0.3);
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 3})
   {
@@ -295,7 +288,7 @@ TEST_CASE("grains on rough triangles touch at every step where the whole surface
     grains.velocity[k] = Vec3(0.05 * unit(random), 0.05 * unit(random), 0.);
     grains.angular_momentum[k] = grains.inertia[k].cwiseProduct(40. * Vec3(unit(random), unit(random), unit(random)));
   }
-  Simulation s = with_surface(parameters(0.3, 0.3), grains, terrain);
+  Simulation s = with_surface(soft_grains(0.3, 0.3), grains, terrain);
   const SurfaceView view = s.surfaces[0].view();
   std::vector<std::int32_t> all_faces(terrain.topology.n_faces());
   std::iota(all_faces.begin(), all_faces.end(), 0);
@@ -344,7 +337,7 @@ TEST_CASE("a surface can be taken away from under its grains, and another come i
   Particles grains;
   for (int k = 0; k < 3; ++k)
     grains.add(sphere, 2650., Vec3((3. * k - 3.) * mm, 0., 0.99 * mm), Quaternion::Identity());
-  Simulation s(parameters(0.3, 0.3), grains, {});
+  Simulation s(soft_grains(0.3, 0.3), grains, {});
   const auto tile = [](const double x) -> dem::Surface
   {
     return {{Vec3(x - mm, -mm, 0.), Vec3(x + mm, -mm, 0.), Vec3(x + mm, mm, 0.), Vec3(x - mm, mm, 0.)},
@@ -381,7 +374,7 @@ TEST_CASE("surfaces that cannot be are refused at the door")
   using Catch::Contains;
   Particles grains;
   grains.add(sphere, 2650., Vec3(0., 0., 5. * mm), Quaternion::Identity());
-  Simulation s(parameters(0.3, 0.3), grains, {});
+  Simulation s(soft_grains(0.3, 0.3), grains, {});
   dem::Surface flat_one = flat(1, 0.);
   flat_one.node[1] = flat_one.node[0];
   CHECK_THROWS_WITH(s.add_surface(flat_one), Contains("triangle 0") && Contains("no area"));

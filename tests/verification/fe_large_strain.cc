@@ -9,6 +9,7 @@
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
+#include "tests/deform.h"
 #include "tests/threads.h"
 
 #include <catch2/catch.hpp>
@@ -41,18 +42,6 @@ ExplicitBody box(const Material &material, const unsigned int degree, const std:
   parameters.material = material;
   parameters.degree = degree;
   return ExplicitBody(mesh, parameters);
-}
-
-void deform(ExplicitBody &body, const Tensor3<double> &f)
-{
-  for (std::size_t node = 0; node < body.n_nodes(); ++node)
-    for (int i = 0; i < 3; ++i)
-    {
-      double &u = body.displacement()[3 * node + i];
-      u = -body.node_position()[node][i];
-      for (int j = 0; j < 3; ++j)
-        u += f[i][j] * body.node_position()[node][j];
-    }
 }
 
 void step(ExplicitBody &body, const double dt)

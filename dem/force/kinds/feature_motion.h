@@ -9,8 +9,8 @@ namespace bergamo::dem
 inline constexpr double all_of_budget = 1.5;
 
 /// As WallMotion, of a part against features that turn, and that are flat in all directions (faces), in one (edges) or
-/// in none (vertices), elsewhere sharp. What the deepest point has come nearer to the borders of its face since the
-/// last search wears, too.
+/// in none (vertices), elsewhere sharp; WallMotion is the case of a face that does not turn, at half the cost. What the
+/// deepest point has come nearer to the borders of its face since the last search wears, too.
 template <class Real>
 struct FeatureMotion : WallMotion<Real>
 {
