@@ -232,6 +232,33 @@ TEST_CASE("a surface that moves carries what lies on it as a plane does, and boo
   CHECK(std::abs(balance_of(on_mesh)) < 1e-4 * scale);
 }
 
+TEST_CASE("a surface that rested does no work in its first step on what has left it")
+{
+  Particles grains;
+  grains.add(sphere, 2650., Vec3(0.3 * mm, 0.2 * mm, 0.99 * mm), Quaternion::Identity());
+  SimulationParameters p = soft_grains(0.5, 0.5);
+  Simulation s = with_surface(p, grains, flat(2, 0.));
+  dem::Surface &surface = s.surfaces[0];
+  const std::vector<Vec3> up(surface.node.size(), Vec3(0., 0., 1e-3));
+  surface.velocity = up;
+  for (int n = 0; n < 10; ++n)
+    s.step();
+  REQUIRE(s.contacts.n_touching_walls() == 1);
+  CHECK(surface.work > 0.);
+  surface.velocity.clear();
+  p.gravity = -p.gravity;
+  s.change(p);
+  while (s.contacts.n_touching_walls() > 0)
+    s.step();
+  const double work = surface.work;
+  s.compute_forces();
+  surface.velocity = up; // between the forces and the drift, too
+  for (int n = 0; n < 3; ++n)
+    s.step();
+  REQUIRE(s.contacts.n_touching_walls() == 0);
+  CHECK(surface.work == work);
+}
+
 TEST_CASE("surfaces have the same bits on any number of threads and across a restart")
 {
   std::mt19937_64 random(13);
