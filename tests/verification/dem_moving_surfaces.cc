@@ -138,7 +138,7 @@ TEST_CASE("a box of 1200 triangles lets a grain rebound as a box of planes does"
 {
   // Each grain alone: it flies, spins, bounces obliquely and rubs. All contacts are searched every step, as those on
   // edges always are: what is left is rounding, which each bounce magnifies by a factor of some ten, and no edge that
-  // it slides across makes more of it: 1e-4 mm was found after ten bounces.
+  // it slides across makes more of it.
   const Threads one_thread(1);
   const double edge = 10. * mm;
   SimulationParameters p = soft_grains(0.3, 0.01);
@@ -149,7 +149,7 @@ TEST_CASE("a box of 1200 triangles lets a grain rebound as a box of planes does"
   const Surface triangles = cube_inside(edge, 10);
   REQUIRE(triangles.topology.n_faces() == 1200);
   CHECK(triangles.topology.is_closed());
-  constexpr int n_grains = 8, n_bounces = 10;
+  constexpr int n_grains = 8, n_bounces = 7;
   double farthest = 0., friction[2]{}, viscous[2]{}, began = 0.;
   for (int k = 0; k < n_grains; ++k)
   {
@@ -182,7 +182,7 @@ TEST_CASE("a box of 1200 triangles lets a grain rebound as a box of planes does"
     }
   }
   CAPTURE(farthest / mm, began, friction[0], friction[1], viscous[0], viscous[1]);
-  CHECK(farthest < 1e-2 * mm);
+  CHECK(farthest < 1e-3 * mm);
   CHECK(friction[0] > 0.1 * began);
   CHECK(friction[1] == Approx(friction[0]).epsilon(0.01));
   CHECK(viscous[1] == Approx(viscous[0]).epsilon(0.01));
