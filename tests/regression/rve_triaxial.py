@@ -4,7 +4,9 @@
 Usage: rve_triaxial.py PROGRAM [TOPIC]
 """
 
+import atexit
 import csv
+import functools
 import json
 import shlex
 import shutil
@@ -34,6 +36,14 @@ class Case(unittest.TestCase):
     def run_driver(self, output, *options, **command):
         return subprocess.run(self.command(output, *options, **command), capture_output=True, text=True)
 
+    def whole_run(self):
+        """Folder of a run that nothing interrupts: one for all tests that compare with it."""
+        folder = uninterrupted_folder()
+        if not folder.exists():
+            result = self.run_driver(folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        return folder
+
     def assert_refused(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
         for word in words:
@@ -45,6 +55,13 @@ class Case(unittest.TestCase):
             for name in ("history.csv", "distributions.csv"):
                 self.assertEqual((one / "samples" / sample / name).read_text(),
                                  (other / "samples" / sample / name).read_text(), (sample, name))
+
+
+@functools.cache
+def uninterrupted_folder():
+    parent = tempfile.mkdtemp()
+    atexit.register(shutil.rmtree, parent, True)
+    return Path(parent) / "whole"
 
 
 def table(path, without=()):
@@ -150,8 +167,7 @@ class Results(Case):
 class Restart(Case):
     def test_kill(self):
         """Killed twice, and stopped by Ctrl-C once: what it gives in the end is the same to the last bit."""
-        whole, parts = self.tmp / "whole", self.tmp / "parts"
-        self.assertEqual(self.run_driver(whole).returncode, 0)
+        whole, parts = self.whole_run(), self.tmp / "parts"
         sample = parts / "samples" / "0001"
         options = list(SNAPSHOTS_BY_STEPS)
         for stage, send in ((0, signal.SIGKILL), (1, signal.SIGKILL), (2, signal.SIGINT)):
@@ -195,15 +211,12 @@ class Restart(Case):
         snapshot.unlink()
         result = self.run_driver(out, *options, "--restart")
         self.assertEqual(result.returncode, 0, result.stderr)
-        whole = self.tmp / "whole"
-        self.assertEqual(self.run_driver(whole).returncode, 0)
-        self.assert_same_results(whole, out)
+        self.assert_same_results(self.whole_run(), out)
 
     def test_failed_sample(self):
         """Under the lower pressure a stage takes too long. The options that the message gives run that sample alone, with
         another limit and what it would have given in its ensemble."""
-        whole, out, alone = self.tmp / "whole", self.tmp / "out", self.tmp / "alone"
-        self.assertEqual(self.run_driver(whole).returncode, 0)
+        whole, out, alone = self.whole_run(), self.tmp / "out", self.tmp / "alone"
         last = [table(whole / "samples" / sample / "history.csv") for sample in ("0001", "0002")]
         shear = [float(rows[-1]["time_s"]) - next(float(row["time_s"]) for row in rows if row["stage"] == "2")
                  for rows in last]
