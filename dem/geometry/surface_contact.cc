@@ -214,6 +214,36 @@ SurfaceLook::Foot SurfaceLook::foot_at(const Vec3 &point, const Vec3 &guess) con
   return foot_against(normal, point);
 }
 
+/// A place at a vertex has its normal in the vertex's cone, where the ends of its edges are lower.
+bool SurfaceLook::is_in_cone(const std::int32_t node, const Foot &foot) const
+{
+  constexpr double rounding = 1e-12;
+  const auto edges_around = surface.topology.edges_of(node);
+  return std::all_of(edges_around.begin(), edges_around.end(),
+                     [&](const std::int32_t e)
+                     {
+                       const SurfaceTopology::Edge &ends = surface.topology.edge[e];
+                       const Vec3 way = surface.node[ends.from == node ? ends.to : ends.from] - surface.node[node];
+                       return foot.normal.dot(way) <= rounding * way.norm();
+                     });
+}
+
+/// Whether all places that leave a vertex none are too deep to be touched. Two more places, of index 1 and -1, are
+/// there then if a body that is slender or pointed touches it beside them.
+bool SurfaceLook::is_beside_deep_places(const std::int32_t node)
+{
+  const SurfaceTopology &t = surface.topology;
+  const double deepest = deepest_overlap * least_half_axis();
+  for (const auto &[f, place] : t.corners_of(node))
+    if (is_inside(f, t.edge_of[f][place]) && is_inside(f, t.edge_of[f][(place + 2) % 3]) &&
+        on_face(f).foot.overlap <= deepest)
+      return false;
+  for (const std::int32_t e : t.edges_of(node))
+    if (index_of_line(e) != 0 && is_beyond(e, node) && on_edge(e).foot.overlap <= deepest)
+      return false;
+  return true;
+}
+
 /// The cone of normals of a vertex lies between those of its faces and edges, and a body may have several least depths
 /// at a point: searches start from all of these normals and from the middle of the body.
 SurfaceLook::Foot SurfaceLook::foot_on_vertex(const std::int32_t node)
@@ -237,27 +267,14 @@ SurfaceLook::Foot SurfaceLook::foot_on_vertex(const std::int32_t node)
   std::sort(tried.begin(), tried.end(), is_less_deep);
   if (!(tried[0].overlap > 0.))
     return tried[0]; // apart
-  // A place has its normal in the cone of the vertex, where the ends of its edges are lower.
-  const auto is_in_cone = [&](const Foot &foot)
-  {
-    constexpr double rounding = 1e-12;
-    const auto edges_around = surface.topology.edges_of(node);
-    return std::all_of(edges_around.begin(), edges_around.end(),
-                       [&](const std::int32_t e)
-                       {
-                         const SurfaceTopology::Edge &ends = surface.topology.edge[e];
-                         const Vec3 way = surface.node[ends.from == node ? ends.to : ends.from] - point;
-                         return foot.normal.dot(way) <= rounding * way.norm();
-                       });
-  };
   Foot least = foot_at(point, tried[0].normal);
-  bool least_is_in_cone = is_in_cone(least);
+  bool least_is_in_cone = is_in_cone(node, least);
   for (std::size_t k = 1; k < tried.size(); ++k)
   {
     if ((tried[k].normal - tried[k - 1].normal).squaredNorm() <= 1e-6)
       continue;
     const Foot other = foot_at(point, tried[k].normal);
-    const bool other_is_in_cone = is_in_cone(other);
+    const bool other_is_in_cone = is_in_cone(node, other);
     if (other_is_in_cone != least_is_in_cone ? other_is_in_cone : other.overlap < least.overlap)
     {
       least = other;
@@ -372,14 +389,16 @@ std::optional<SurfacePlace> SurfaceLook::place_at(const Feature feature, const s
   const SurfaceTopology &t = surface.topology;
   if (feature == Feature::face && !(on_face(number).foot.overlap > 0.))
     return {};
-  const int index = index_of(feature, number);
+  int index = index_of(feature, number);
+  if (index == 0 && feature == Feature::vertex && is_beside_deep_places(number))
+    index = is_in_cone(number, foot_on_vertex(number));
   if (index == 0)
     return {};
   const std::int32_t node = feature == Feature::face   ? t.triangle[number][0]
                             : feature == Feature::edge ? t.edge[number].from
                                                        : number;
   const Foot foot = foot_on(feature, number);
-  const double deepest = deepest_overlap * std::min({body.shape.r1, body.shape.r2, body.shape.r3});
+  const double deepest = deepest_overlap * least_half_axis();
   const bool is_in_front = foot.normal.dot(body.position - surface.node[node]) > 0.;
   if (!(foot.overlap > 0.) || foot.overlap > deepest || !is_in_front)
     return {};

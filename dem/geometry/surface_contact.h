@@ -3,6 +3,7 @@
 #include "dem/geometry/contact_geometry.h"
 #include "dem/geometry/surface_topology.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -129,6 +130,9 @@ private:
   Foot foot_against(const Vec3 &normal, const Vec3 &point) const;
   bool is_inside(std::int32_t face, std::int32_t edge);
   bool is_beyond(std::int32_t edge, std::int32_t node);
+  bool is_in_cone(std::int32_t node, const Foot &foot) const;
+  bool is_beside_deep_places(std::int32_t node);
+  double least_half_axis() const { return std::min({body.shape.r1, body.shape.r2, body.shape.r3}); }
   int index_of_face(std::int32_t face);
   int index_of_line(std::int32_t edge);
   int index_of_edge(std::int32_t edge);

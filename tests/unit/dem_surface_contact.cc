@@ -43,6 +43,31 @@ BodyPose placed(const Superquadric &shape, const Vec3 &position, std::mt19937_64
   return make_pose(shape, position, draw_orientation(random));
 }
 
+/// Divergence and curl of the force on a body over the places of its centre, by central differences [force/length].
+struct FieldRates
+{
+  double divergence, curl;
+};
+
+FieldRates rates_of_field(BodyPose body, const Surface &surface, const std::vector<std::int32_t> &faces)
+{
+  constexpr double step = 1e-6;
+  const Vec3 centre = body.position;
+  Mat3 gradient;
+  for (int k = 0; k < 3; ++k)
+  {
+    Vec3 force[2];
+    for (const int side : {0, 1})
+    {
+      body.position = centre + (side ? step : -step) * Vec3::Unit(k);
+      force[side] = response(body, surface, faces).force;
+    }
+    gradient.col(k) = (force[1] - force[0]) / (2. * step);
+  }
+  const Mat3 turning = gradient - gradient.transpose();
+  return {gradient.trace(), Vec3(turning(2, 1), turning(0, 2), turning(1, 0)).norm()};
+}
+
 } // namespace
 
 TEST_CASE("a surface knows its neighbours", "[surface]")
@@ -185,6 +210,71 @@ TEST_CASE("forces on a body are the derivatives of one continuous energy", "[sur
   REQUIRE(n_bent > 20); // and with places that count against one another among them
 }
 
+TEST_CASE("closed paths around edges and vertices give and take nothing: the field of forces has no curl", "[surface]")
+{
+  // Wellmann, figure 4.5, with any body instead of a sphere: his interpolated forces have a curl wherever faces bend
+  // little. Circles of the centre about a place that is touched: over an edge or a vertex, and out of contact in part.
+  struct Case
+  {
+    const char *name;
+    Surface surface;
+    Vec3 nearby; ///< unit, from the origin to the body
+  };
+  const double degree = M_PI / 180.;
+  std::vector<Case> cases;
+  for (const double slope : {0., 0.5, 5., 30., -0.5, -5., -30.})
+    cases.push_back({slope < 0. ? "valley" : "ridge", ridge(slope * degree), Vec3::UnitZ()});
+  Surface corner = cube();
+  for (Vec3 &node : corner.node)
+    node = 10. * (node - Vec3::Ones());
+  cases.push_back({"vertex", corner, Vec3::Ones().normalized()});
+  cases.push_back({"edge of a cube", corner, Vec3(1., 0., 1.).normalized()});
+  std::mt19937_64 random(8);
+  std::vector<Superquadric> bodies{sphere(1.)};
+  for (int k = 0; k < 2; ++k)
+    bodies.push_back(random_grain(random));
+  for (const Case &c : cases)
+  {
+    const std::vector<std::int32_t> faces = c.surface.all_faces();
+    double largest_work = 0., largest_curl = 0., largest_divergence = 0.;
+    for (const Superquadric &shape : bodies)
+    {
+      BodyPose body = placed(shape, Vec3::Zero(), random);
+      body.position = 3. * c.nearby;
+      while (find_surface_places(body, c.surface.view(), faces).empty())
+        body.position -= 1e-3 * c.nearby;
+      body.position -= 5e-3 * c.nearby;
+      const Vec3 centre = body.position;
+      for (int n = 0; n < 3; ++n)
+      {
+        const Vec3 axis = draw_orientation(random) * Vec3::UnitX(), one = axis.unitOrthogonal(), two = axis.cross(one);
+        constexpr double radius = 0.01;
+        constexpr int n_points = 500;
+        double work = 0., most_energy = 0.;
+        for (int k = 0; k < n_points; ++k)
+        {
+          const double angle = 2. * M_PI * k / n_points;
+          body.position = centre + radius * (std::cos(angle) * one + std::sin(angle) * two);
+          const Response here = response(body, c.surface, faces);
+          work += 2. * M_PI * radius / n_points * here.force.dot(std::cos(angle) * two - std::sin(angle) * one);
+          most_energy = std::max(most_energy, here.energy);
+          if (k % 25 == 0)
+          {
+            const FieldRates rates = rates_of_field(body, c.surface, faces);
+            largest_curl = std::max(largest_curl, rates.curl);
+            largest_divergence = std::max(largest_divergence, std::abs(rates.divergence));
+          }
+        }
+        REQUIRE(most_energy > 0.);
+        largest_work = std::max(largest_work, std::abs(work) / most_energy);
+      }
+    }
+    CAPTURE(c.name, largest_work, largest_curl, largest_divergence);
+    CHECK(largest_work < 1e-5);                      // the quadrature's, where the overlap goes to zero
+    CHECK(largest_curl < 1e-4 * largest_divergence); // the differences', likewise
+  }
+}
+
 TEST_CASE("a body that touches a convex polyhedron does so once, where it is least deep", "[surface]")
 {
   std::mt19937_64 random(5);
@@ -290,6 +380,38 @@ TEST_CASE("the rim of an open surface is round", "[surface]")
   REQUIRE(corner.size() == 1);
   REQUIRE(corner[0].feature == Feature::vertex);
   REQUIRE(corner[0].normal.isApprox(out, 1e-9));
+}
+
+TEST_CASE("a vertex is touched beside places that are too deep to be", "[surface]")
+{
+  // A small triangle stands on edge in the side of a flat grain: its plane and the lines of its edges are far inside,
+  // but one vertex alone is, and hardly.
+  Superquadric shape;
+  shape.half_axes = Vec3(1., 6.79, 5.12);
+  shape.eps1 = 1.056;
+  shape.eps2 = 0.902;
+  Mat3 axes;
+  axes << -0.0553, -0.0727, -0.9958, 0.5113, 0.8546, -0.0908, 0.8576, -0.5141, -0.0101;
+  const Surface triangle{{Vec3(0.0100, 0.0185, 0.0039), Vec3(-0.0173, 0.0039, -0.0102), Vec3(-0.0145, 0.0054, -0.0087)},
+                         SurfaceTopology({{0, 1, 2}}, 3)};
+  BodyPose body = make_pose(shape, Vec3::Zero(), Quaternion(axes).normalized());
+  const Vec3 direction = Vec3(0.0874, 0.7154, 0.6932).normalized();
+  const Vec3 touched = triangle.node[0] - support(body, Vec3(-direction)).arm;
+  for (const double depth : {-1e-3, -1e-5, 1e-5, 1e-3})
+  {
+    CAPTURE(depth);
+    body.position = touched - depth * direction;
+    const std::vector<SurfacePlace> places = find_surface_places(body, triangle.view(), triangle.all_faces());
+    REQUIRE(places.size() == (depth > 0. ? 1 : 0));
+    if (depth > 0.)
+    {
+      CHECK(places[0].feature == Feature::vertex);
+      CHECK(places[0].number == 0);
+      CHECK(places[0].index == 1);
+      CHECK(places[0].overlap == Approx(depth).epsilon(1e-6));
+      CHECK(places[0].normal.dot(direction) == Approx(1.));
+    }
+  }
 }
 
 TEST_CASE("bounds of the gap between a body and a feature hold", "[surface]")
