@@ -26,8 +26,9 @@ inline constexpr std::int32_t removed_part = -1;
 /// A kind says what a contact remembers (State, Store), where a search starts (Hint), how far its bodies have moved
 /// (travelled), what is left of the gap of a pair apart (least_gap), how a block is followed, a group of pairs
 /// searched, a contact ended, seen from the other body, searched anew and shown to a reader; whether body 2 is no part,
-/// and which body then takes the loads; and whether new contacts take over from others of the same part, so that they
-/// are searched after those. See dem/force/kinds, and Contacts, which lists them all.
+/// and which body then takes the loads; whether new contacts take over from others of the same part, so that they are
+/// searched after those; and whether the work of friction is counted by contact. See dem/force/kinds, and Contacts,
+/// which lists them all.
 template <class Kind>
 class ContactSet
 {
@@ -58,6 +59,13 @@ public:
 
   /// Adds the virial of all contacts at this step.
   void add_virial(Virial<double> &sum) const { loads.add_virial(sum); }
+
+  /// Counts losses from now on.
+  void open_accounts();
+
+  /// Adds what friction has done at each wall or feature since the accounts were opened, which is all of
+  /// `losses.friction` [J]. @param[in,out] work by feature
+  void add_friction_work(std::span<double> work) const requires Kind::counts_friction;
 
   /// Has every contact searched anew at the next step, e.g. after weights have been changed.
   void refresh(const Particles &particles) { Kind::refresh(store, particles); }
@@ -97,6 +105,8 @@ public:
     visit("curvature_work", self.losses.curvature);
     visit("search_work", self.losses.search);
     visit("quadrature_work", self.losses.quadrature);
+    if constexpr (Kind::counts_friction)
+      visit("ended_friction", self.ended_friction);
     visit("n_undecided", self.n_undecided);
     visit("n_searches", self.n_searches);
   }
@@ -129,6 +139,7 @@ private:
   void add_due_loads(const Particles &particles, const std::vector<std::int32_t> &due_slots);
   void add_load_of(const Particles &particles, const ContactSearch &pair, const Resultant &resultant);
   std::int32_t slot_near(std::int32_t pair) const;
+  void forget(std::int32_t slot, const ContactLosses &lost);
   std::vector<std::int32_t> take_candidates(const VerletList &found, std::span<const std::uint8_t> sought);
   bool is_scattered() const;
   void compact(const Particles &particles);
@@ -140,6 +151,7 @@ private:
   std::vector<double> rest_until;
   std::vector<typename Kind::Hint> hint;
   typename Kind::Store store;
+  std::vector<double> ended_friction; // of contacts that ended, by feature, as far as there were any [J]
   LoadSums loads;
   std::vector<DueLoad> due_loads; // of one step; kept for its memory alone
 };

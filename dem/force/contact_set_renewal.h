@@ -30,10 +30,7 @@ void ContactSet<Kind>::renew(const VerletList &found, const Particles &particles
                              const std::span<const std::uint8_t> sought)
 {
   for (const std::int32_t left : take_candidates(found, sought)) // by slot
-  {
-    losses += release(store.get(left));
-    store.remove(left);
-  }
+    forget(left, release(store.get(left)));
   if (sought.empty() || is_scattered())
   {
     compact(particles);
@@ -219,10 +216,7 @@ void ContactSet<Kind>::reorder(const std::vector<std::int32_t> &new_part, const 
     if (i == removed_part || (!Kind::second_is_wall && j == removed_part))
     {
       if (slot[pair] != apart)
-      {
-        losses += release(store.get(slot[pair]));
-        store.remove(slot[pair]);
-      }
+        forget(slot[pair], release(store.get(slot[pair])));
       continue;
     }
     const bool is_exchanged = !Kind::second_is_wall && i > j;
@@ -267,11 +261,15 @@ void ContactSet<Kind>::reorder(const std::vector<std::int32_t> &new_part, const 
 template <class Kind>
 void ContactSet<Kind>::remove_walls(const std::int32_t first, const std::int32_t n) requires Kind::second_is_wall
 {
-  for (std::int32_t &second : list.second)
-    if (second >= first + n)
-      second -= n;
-    else if (second >= first)
-      second = -1; // none has this number: the next renewal drops the contact
+  for (auto *seconds : {&list.second, &store.second})
+    for (std::int32_t &second : *seconds)
+      if (second >= first + n)
+        second -= n;
+      else if (second >= first)
+        second = -1; // none has this number: the next renewal drops the contact
+  const auto end = static_cast<std::ptrdiff_t>(ended_friction.size());
+  ended_friction.erase(ended_friction.begin() + std::min<std::ptrdiff_t>(first, end),
+                       ended_friction.begin() + std::min<std::ptrdiff_t>(first + n, end));
 }
 
 } // namespace bergamo::dem

@@ -170,8 +170,7 @@ void ContactSet<Kind>::take_up(const Found &found, const ContactScene &scene)
   found.ended.for_each(
       [&](const ContactSearch &s)
       {
-        losses += Kind::end(s, store.get(s.slot), scene);
-        store.remove(s.slot);
+        forget(s.slot, Kind::end(s, store.get(s.slot), scene));
         slot[s.pair] = apart;
       });
   found.begun.for_each(
@@ -182,6 +181,41 @@ void ContactSet<Kind>::take_up(const Found &found, const ContactScene &scene)
         loads.take(slot[s.pair], s.first, Kind::body_of_second(s.second, scene.bodies()));
         rest_until[s.pair] = std::numeric_limits<double>::infinity();
       });
+}
+
+/// Takes a contact out of its slot. @param lost in its end
+template <class Kind>
+void ContactSet<Kind>::forget(const std::int32_t slot, const ContactLosses &lost)
+{
+  losses += lost;
+  if constexpr (Kind::counts_friction)
+    if (const std::int32_t feature = store.second[slot]; feature >= 0) // else removed
+    {
+      if (ended_friction.size() <= static_cast<std::size_t>(feature))
+        ended_friction.resize(feature + 1, 0.);
+      ended_friction[feature] += store.get(slot).friction_work + lost.friction;
+    }
+  store.remove(slot);
+}
+
+template <class Kind>
+void ContactSet<Kind>::open_accounts()
+{
+  losses = {};
+  ended_friction.clear();
+  if constexpr (Kind::counts_friction)
+    for (auto &block : store.blocks)
+      block.friction_work = Pack(0.);
+}
+
+template <class Kind>
+void ContactSet<Kind>::add_friction_work(const std::span<double> work) const requires Kind::counts_friction
+{
+  for (std::size_t feature = 0; feature < ended_friction.size(); ++feature)
+    work[feature] += ended_friction[feature];
+  for (std::size_t slot = 0; slot < store.n_slots(); ++slot)
+    if (store.pair[slot] != store.free_slot && store.second[slot] >= 0)
+      work[store.second[slot]] += store.get(static_cast<std::int32_t>(slot)).friction_work;
 }
 
 /// Adds what the searches of due contacts that stay have given, each chunk by one thread. @param due_slots ascending

@@ -76,6 +76,16 @@ struct ContactState
   }
 };
 
+/// A contact with a feature of a surface, which also counts what friction does there.
+template <class Real>
+struct SurfaceContactState : ContactState<Real>
+{
+  Real friction_work; ///< lost tangentially since it began or the accounts were opened, with the weight [J]
+
+  static SurfaceContactState begin() { return {ContactState<Real>::begin(), Real(0.)}; }
+  static SurfaceContactState idle() { return {ContactState<Real>::idle(), Real(0.)}; }
+};
+
 /// A contact of two spheres: its geometry follows from the centres at every step.
 template <class Real>
 struct SphereContactState

@@ -173,9 +173,17 @@ ContactLosses Contacts::losses() const
   return sum;
 }
 
-void Contacts::reset_losses()
+void Contacts::open_accounts()
 {
-  for_each_set(*this, [&](auto &set, std::int32_t) { set.losses = {}; });
+  for_each_set(*this, [&](auto &set, std::int32_t) { set.open_accounts(); });
+}
+
+std::vector<double> Contacts::friction_work(const std::size_t n_features) const
+{
+  std::vector<double> work(n_features, 0.);
+  for (const ContactSet<GrainSurface> &set : grain_surface)
+    set.add_friction_work(work);
+  return work;
 }
 
 namespace

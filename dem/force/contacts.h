@@ -89,7 +89,11 @@ public:
 
   ContactEnergy total_energy() const; ///< stored in all contacts [J]
   ContactLosses losses() const;       ///< since the accounts were opened [J]
-  void reset_losses();
+  void open_accounts();               ///< counts losses from now on
+
+  /// Friction's work at each feature of the surfaces since the accounts were opened, with the weights; what contacts
+  /// have lost in their end counts [J]. @param n_features of all surfaces, counted as feature_of() does
+  std::vector<double> friction_work(std::size_t n_features) const;
 
   std::int32_t n_touching() const;       ///< contacts between particles
   std::int32_t n_touching_walls() const; ///< contacts with walls and surfaces

@@ -28,8 +28,8 @@ void check_stresses(const std::span<const Surface> surfaces, const std::span<con
   require(stresses.size() == surfaces.size(), "number of stresses of surfaces", stresses.size(),
           "that of the surfaces, " + std::to_string(surfaces.size()));
   for (std::size_t s = 0; s < surfaces.size(); ++s)
-    for (const std::size_t n :
-         {stresses[s].pressure.size(), stresses[s].shear_stress.size(), stresses[s].traction.size()})
+    for (const std::size_t n : {stresses[s].pressure.size(), stresses[s].shear_stress.size(),
+                                stresses[s].traction.size(), stresses[s].friction_work.size()})
       require(n == surfaces[s].topology.n_faces(), "number of stresses of surface " + std::to_string(s), n,
               "that of its triangles, " + std::to_string(surfaces[s].topology.n_faces()));
 }
@@ -83,14 +83,15 @@ void write_surfaces_vtu(const std::span<const Surface> surfaces, const std::span
   const VtuArray traction = of_faces(vtu_attributes("Float32", "traction", 3), 3 * sizeof(float),
                                      [&](const std::int32_t s, const std::int32_t t, std::byte *out)
                                      { put_bytes<float>(out, stresses[s].traction[t]); });
-  write_vtu({nodes.size(),
-             faces.size(),
-             points,
-             {connectivity, offsets, types},
-             {velocity},
-             {number, scalar("pressure", &SurfaceStress::pressure),
-              scalar("shear_stress", &SurfaceStress::shear_stress), traction}},
-            path);
+  write_vtu(
+      {nodes.size(),
+       faces.size(),
+       points,
+       {connectivity, offsets, types},
+       {velocity},
+       {number, scalar("pressure", &SurfaceStress::pressure), scalar("shear_stress", &SurfaceStress::shear_stress),
+        traction, scalar("friction_work", &SurfaceStress::friction_work)}},
+      path);
 }
 
 } // namespace bergamo::dem

@@ -46,14 +46,16 @@ double area_of(const Surface &surface, const Triangle &t)
 } // namespace
 
 std::vector<SurfaceStress> surface_stress(const std::span<const Surface> surfaces,
-                                          const std::span<const TouchingContact> contacts)
+                                          const std::span<const TouchingContact> contacts,
+                                          const std::span<const double> friction_work)
 {
   std::vector<SurfaceStress> stresses;
   std::vector<std::vector<Vec3>> tangential; // forces, by surface and triangle
   for (const Surface &surface : surfaces)
   {
     const std::size_t n = surface.topology.n_faces();
-    stresses.push_back({std::vector(n, 0.), std::vector(n, 0.), std::vector<Vec3>(n, Vec3::Zero())});
+    stresses.push_back(
+        {std::vector(n, 0.), std::vector(n, 0.), std::vector<Vec3>(n, Vec3::Zero()), std::vector(n, 0.)});
     tangential.emplace_back(n, Vec3::Zero());
   }
   for (const TouchingContact &contact : contacts)
@@ -70,6 +72,13 @@ std::vector<SurfaceStress> surface_stress(const std::span<const Surface> surface
       stress.traction[face] -= weight * contact.state.force();
     }
   }
+  for (std::size_t feature = 0; feature < friction_work.size(); ++feature)
+    if (friction_work[feature] != 0.)
+    {
+      const FeatureOfSurface f = feature_of(surfaces, static_cast<std::int32_t>(feature));
+      for (const auto &[face, share] : faces_of(surfaces[f.surface], f))
+        stresses[f.surface].friction_work[face] += share * friction_work[feature];
+    }
   for (std::size_t s = 0; s < surfaces.size(); ++s)
     for (std::size_t t = 0; t < tangential[s].size(); ++t)
     {
@@ -77,6 +86,7 @@ std::vector<SurfaceStress> surface_stress(const std::span<const Surface> surface
       stresses[s].pressure[t] /= area;
       stresses[s].shear_stress[t] = tangential[s][t].norm() / area;
       stresses[s].traction[t] /= area;
+      stresses[s].friction_work[t] /= area;
     }
   return stresses;
 }

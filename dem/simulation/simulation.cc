@@ -295,7 +295,7 @@ void Simulation::rest()
 
 void Simulation::reset_accounts()
 {
-  contacts.reset_losses();
+  contacts.open_accounts();
   for (PlaneWall &wall : walls)
     wall.work = 0.;
   for (Surface &surface : surfaces)

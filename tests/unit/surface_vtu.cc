@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <numeric>
 
 using namespace bergamo;
 using namespace bergamo::dem;
@@ -51,7 +52,10 @@ Simulation with_ball(const std::vector<dem::Surface> &surfaces, const Vec3 &plac
 
 std::vector<SurfaceStress> stresses_of(const Simulation &s)
 {
-  return surface_stress(s.surfaces, s.contacts.touching_walls(s.particles));
+  std::size_t n_features = 0;
+  for (const dem::Surface &surface : s.surfaces)
+    n_features += surface.n_features();
+  return surface_stress(s.surfaces, s.contacts.touching_walls(s.particles), s.contacts.friction_work(n_features));
 }
 
 double area_of(const dem::Surface &surface, const std::size_t t)
@@ -189,6 +193,59 @@ TEST_CASE("stresses add up to the forces on the nodes, at valleys and in sliding
   }
 }
 
+TEST_CASE("friction wears each triangle by its coefficient times weight times the way over it")
+{
+  constexpr double friction = 0.01, speed = 0.5, way = 3.2 * mm, y = 0.9 * mm;
+  const dem::Surface plane = flat_square();
+  SimulationParameters p;
+  p.grain() = p.wall() = {1e8, 0.3, 2650.};
+  p.between_grains().friction = p.with_walls().friction = friction;
+  p.set_damping(0.5);
+  p.gravity = Vec3(0., 0., -9.81);
+  p.time_step = 2e-6;
+  Particles grains;
+  grains.add({Vec3::Constant(radius), 1., 1.}, 2650., Vec3(0.4 * mm, y, radius - 1e-3 * overlap),
+             Quaternion::Identity());
+  Simulation s(p, grains, {});
+  s.add_surface(plane);
+  for (int n = 0; n < 5000; ++n) // at rest
+    s.step();
+  s.reset_accounts();
+  s.particles.velocity[0] = Vec3(speed, 0., 0.);
+  const double begin = s.particles.position[0].x();
+  while (s.particles.position[0].x() < begin + way)
+    s.step();
+
+  std::vector<double> length(plane.topology.n_faces(), 0.); // of the way over each triangle
+  constexpr int n_points = 10000;
+  for (int n = 0; n < n_points; ++n)
+  {
+    const Vec3 x(begin + way * (n + 0.5) / n_points, y, 0.);
+    for (std::size_t t = 0; t < length.size(); ++t)
+    {
+      const auto &[a, b, c] = plane.topology.triangle[t];
+      const auto is_left = [&](const std::int32_t from, const std::int32_t to)
+      { return (plane.node[to] - plane.node[from]).cross(x - plane.node[from]).z() > 0.; };
+      length[t] += is_left(a, b) && is_left(b, c) && is_left(c, a) ? way / n_points : 0.;
+    }
+  }
+  const std::vector<double> work = s.contacts.friction_work(plane.n_features());
+  const SurfaceStress stress = surface_stress(s.surfaces, s.contacts.touching_walls(s.particles), work)[0];
+  const double weight = s.particles.mass[0] * 9.81;
+  int n_crossed = 0;
+  for (std::size_t t = 0; t < length.size(); ++t)
+  {
+    CAPTURE(t, length[t]);
+    // It slows down and begins to roll by friction g t / speed of its way, some thousandths.
+    CHECK(stress.friction_work[t] * area_of(plane, t) ==
+          Approx(friction * weight * length[t]).epsilon(0.005).margin(1e-3 * friction * weight * way));
+    n_crossed += length[t] > 0.1 * way;
+  }
+  CHECK(n_crossed >= 3);
+  // All of it, with what contacts have lost in their ends.
+  CHECK(std::accumulate(work.begin(), work.end(), 0.) == Approx(s.energy().friction_loss).epsilon(1e-12));
+}
+
 TEST_CASE("surfaces are written with their stresses and read again")
 {
   const TemporaryFolder folder;
@@ -208,11 +265,12 @@ TEST_CASE("surfaces are written with their stresses and read again")
   REQUIRE(file.n_cells == n_hills + 12);
   REQUIRE(file.n_points == m_hills + 8);
   const auto pressure = file.array<float>("pressure"), shear = file.array<float>("shear_stress"),
-             traction = file.array<float>("traction"), velocity = file.array<float>("velocity");
+             traction = file.array<float>("traction"), wear = file.array<float>("friction_work"),
+             velocity = file.array<float>("velocity");
   const auto number = file.array<std::int32_t>("surface");
   REQUIRE(traction.size() == 3 * file.n_cells);
   REQUIRE(velocity.size() == 3 * file.n_points);
-  double highest = 0.;
+  double highest = 0., most_worn = 0.;
   for (std::size_t t = 0; t < file.n_cells; ++t)
   {
     const std::size_t of = t < n_hills ? 0 : 1, k = t - (of == 1 ? n_hills : 0);
@@ -220,9 +278,12 @@ TEST_CASE("surfaces are written with their stresses and read again")
     CHECK(pressure[t] == static_cast<float>(stress[of].pressure[k]));
     CHECK(shear[t] == static_cast<float>(stress[of].shear_stress[k]));
     CHECK(traction[3 * t + 2] == static_cast<float>(stress[of].traction[k].z()));
+    CHECK(wear[t] == static_cast<float>(stress[of].friction_work[k]));
     highest = std::max<double>(highest, pressure[t]);
+    most_worn = std::max<double>(most_worn, wear[t]);
   }
   CHECK(highest > 0.);
+  CHECK(most_worn > 0.);
   CHECK(velocity[3 * (m_hills + 3) + 1] == 2.f);
   CHECK(velocity[1] == 0.f); // at rest
 

@@ -166,6 +166,14 @@ TEST_CASE("grains on rough triangles keep their energy account and press with th
         of_contacts += (s.particles.position[c.first] + c.state.point).cross(f);
       }
       CHECK((moment - of_contacts).norm() < 1e-3 * force.norm() * mm); // points lie half an overlap above the faces
+      // Friction's work feature by feature is all that friction has lost at the surface, whatever contacts became of
+      // one another.
+      const std::vector<double> work = s.contacts.friction_work(s.surfaces[0].n_features());
+      double lost = 0.;
+      for (const ContactSet<GrainSurface> &set : s.contacts.grain_surface)
+        lost += set.losses.friction;
+      CHECK(lost > 0.01 * scale);
+      CHECK(std::accumulate(work.begin(), work.end(), 0.) == Approx(lost).epsilon(1e-10));
     }
   }
 }

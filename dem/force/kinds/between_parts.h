@@ -12,6 +12,7 @@ struct BetweenParts
 {
   static constexpr bool second_is_wall = false;
   static constexpr bool takes_over = false;
+  static constexpr bool counts_friction = false;
   static constexpr bool is_interleaved = true;
   static constexpr std::int32_t near_reach = 64;
 

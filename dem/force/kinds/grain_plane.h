@@ -22,6 +22,7 @@ struct GrainPlane
 
   static constexpr bool second_is_wall = true;
   static constexpr bool takes_over = false;
+  static constexpr bool counts_friction = false;
   static constexpr bool is_interleaved = false; // all contacts of a wall add to the same load
   static constexpr std::size_t search_group = 16;
   static constexpr std::int32_t near_reach = 1;

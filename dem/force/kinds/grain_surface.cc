@@ -40,12 +40,13 @@ FeatureMotion<double> at_rest(const double time_step)
 }
 
 /// The touching contact of the same part that a new one takes over from: the nearest in direction, about as deep.
-std::optional<ContactState<double>> taken_over(const ContactSearch &search, const SearchContext<GrainSurface> &context,
-                                               const SurfacePlace &place, SurfaceLook &look)
+std::optional<SurfaceContactState<double>> taken_over(const ContactSearch &search,
+                                                      const SearchContext<GrainSurface> &context,
+                                                      const SurfacePlace &place, SurfaceLook &look)
 {
   constexpr double largest_turn_of_normal = 0.5; // [rad]: over an edge the normal turns with the part
   constexpr double depth_range = 2.;
-  std::optional<ContactState<double>> found;
+  std::optional<SurfaceContactState<double>> found;
   double nearest = std::cos(largest_turn_of_normal);
   const std::int32_t surface = feature_of(context.scene.surfaces, search.second).surface;
   for (auto pair = context.list.row[search.first_part]; pair < context.list.row[search.first_part + 1]; ++pair)
@@ -53,7 +54,7 @@ std::optional<ContactState<double>> taken_over(const ContactSearch &search, cons
     const FeatureOfSurface f = feature_of(context.scene.surfaces, context.list.second[pair]);
     if (context.slot[pair] < 0 || f.surface != surface || !(look.overlap_at(f.feature, f.number) > 0.))
       continue;
-    const ContactState<double> other = context.store.get(context.slot[pair]);
+    const SurfaceContactState<double> other = context.store.get(context.slot[pair]);
     const double alike = -other.normal.dot(place.normal), ratio = place.overlap / other.overlap;
     if (alike <= nearest || ratio > depth_range || ratio * depth_range < 1.)
       continue;
@@ -120,7 +121,7 @@ public:
 math::Mask<Pack> GrainSurface::follow_block(Store &store, LoadSums &loads, const std::size_t block,
                                             const ContactScene &scene, Losses<Pack> &losses)
 {
-  ContactState<Pack> &state = store.blocks[block];
+  SurfaceContactState<Pack> &state = store.blocks[block];
   std::array<FeatureMotion<double>, pack_width> of_lane;
   for (int lane = 0; lane < pack_width; ++lane)
   {
@@ -145,7 +146,10 @@ math::Mask<Pack> GrainSurface::follow_block(Store &store, LoadSums &loads, const
   motion.edge = gather(&Motion::edge);
   motion.is_face = gather_numbers(&Motion::is_face);
   motion.is_edge = gather_numbers(&Motion::is_edge);
-  const Followed<Pack> followed = follow(state, motion, scene.law, losses);
+  Losses<Pack> lost;
+  const Followed<Pack> followed = follow<Pack>(state, motion, scene.law, lost);
+  state.friction_work += lost.friction;
+  losses += lost;
   loads.add(block, followed.force, state.point.cross(followed.force), Vector3<Pack>(0., 0., 0.));
   return followed.is_due;
 }
@@ -175,6 +179,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
         search.gap = std::numeric_limits<double>::infinity();
       continue;
     }
+    ContactLosses lost;
     State state = search.slot >= 0 ? context.store.get(search.slot) : State::begin();
     const double weight = place->index * scene.particles.weight[search.first];
     const Vec3 point = place->arm + 0.5 * place->overlap * place->normal;
@@ -185,11 +190,14 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
         // It goes on from the other's state, which ends or stays by its own books: their end is taken back.
         state = *other;
         state.weight = weight;
+        state.friction_work = 0.;
         ContactState<double> ended = state;
         ended.point = point;
-        losses += end_of(ended, motion) * -1.;
+        lost += end_of(ended, motion) * -1.;
       }
-    take_flat_place(search, scene, {-place->normal, place->overlap, weight}, motion, state, losses);
+    take_flat_place(search, scene, {-place->normal, place->overlap, weight}, motion, state, lost);
+    state.friction_work += lost.friction;
+    losses += lost;
     // On a face the deepest point may go half the way to the nearest edge before it is looked at again.
     constexpr double share = 0.5;
     constexpr double not_followed = 1e100; // [1/m]

@@ -16,8 +16,8 @@ namespace bergamo::dem
 /// that they add nothing.
 struct GrainSurface
 {
-  using State = ContactState<double>;
-  using Store = ContactStore<ContactState>;
+  using State = SurfaceContactState<double>;
+  using Store = ContactStore<SurfaceContactState>;
   using Hint = FeatureSeparation;
   static Hint no_hint() { return {}; }
   static double least_gap(const Hint &separation, const ContactSearch &pair, const ContactScene &scene)
@@ -27,6 +27,7 @@ struct GrainSurface
 
   static constexpr bool second_is_wall = true;
   static constexpr bool takes_over = true;
+  static constexpr bool counts_friction = true;
   static constexpr bool is_interleaved = false;
   static constexpr std::size_t search_group = 16;
   static constexpr std::int32_t near_reach = 16;

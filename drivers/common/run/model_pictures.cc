@@ -23,7 +23,11 @@ void write_grains(const dem::Simulation &grains, const std::filesystem::path &pa
 void write_surfaces(const dem::Simulation &grains, const std::filesystem::path &path)
 {
   const std::vector<dem::TouchingContact> contacts = grains.contacts.touching_walls(grains.particles);
-  dem::write_surfaces_vtu(grains.surfaces, dem::surface_stress(grains.surfaces, contacts), path);
+  std::size_t n_features = 0;
+  for (const dem::Surface &surface : grains.surfaces)
+    n_features += surface.n_features();
+  const std::vector<double> friction_work = grains.contacts.friction_work(n_features);
+  dem::write_surfaces_vtu(grains.surfaces, dem::surface_stress(grains.surfaces, contacts, friction_work), path);
 }
 
 } // namespace
