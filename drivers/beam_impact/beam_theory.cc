@@ -12,7 +12,8 @@ namespace
 
 using State = std::vector<double>; // of the sphere, then of each mode: places before velocities
 
-/// Right side of the equations of motion. A mode's deflection is W sin(k x), its rotation of the section Θ cos(k x).
+/// Right side of the equations of motion. A mode's deflection is W cos(k x) from the middle on, its rotation of the
+/// section −Θ sin(k x).
 class Equations
 {
 public:
@@ -35,7 +36,7 @@ public:
   {
     double sum = 0.;
     for (unsigned int mode = 0; mode < p.n_modes; ++mode)
-      sum += in_the_middle(mode) * state[2 + n_of_mode() * mode];
+      sum += state[2 + n_of_mode() * mode];
     return sum;
   }
 
@@ -54,7 +55,7 @@ public:
     for (unsigned int mode = 0; mode < p.n_modes; ++mode)
     {
       const double k = (2. * mode + 1.) * std::numbers::pi / p.length;
-      const double load = 2. / p.length * on_beam * in_the_middle(mode);
+      const double load = 2. / p.length * on_beam;
       const double *now = &state[2 + n_of_mode() * mode];
       double *then = &rate[2 + n_of_mode() * mode];
       then[0] = now[1];
@@ -72,7 +73,6 @@ public:
 
 private:
   std::size_t n_of_mode() const { return is_thick ? 4 : 2; }
-  static double in_the_middle(const unsigned int mode) { return mode % 2 == 0 ? 1. : -1.; } // sin(k L/2)
 
   const ImpactParameters &p;
   bool is_thick;

@@ -102,8 +102,6 @@ void Impact::move()
 
 void Impact::look()
 {
-  if (looked.force.size() > static_cast<std::size_t>(n_steps())) // seen before a restart
-    return;
   looked.sphere.push_back(sphere_displacement());
   looked.beam.push_back(beam_displacement());
   looked.force.push_back(force());
