@@ -16,6 +16,7 @@ std::string liggghts_begin(const std::string &data_file, const double skin)
           "newton off\n"
           "communicate single vel yes\n"
           "hard_particles yes\n" // it asks to confirm moduli above 1 GPa
+          "soft_particles yes\n" // and below 5 MPa
           "units si\n"
           "read_data "
        << data_file << "\nneighbor " << skin << " bin\n"

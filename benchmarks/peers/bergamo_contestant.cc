@@ -7,7 +7,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 namespace bergamo::benchmark
@@ -101,8 +100,11 @@ BulkCase advanced(const BulkCase &bulk, const double seconds)
   BulkCase later = bulk;
   later.vessel = dem::Surface(steps.grains.surfaces[0].node, bulk.vessel.topology.triangle);
   later.vessel.material = bulk.vessel.material;
-  later.beads = steps.grains.particles;
-  std::iota(later.beads.id.begin(), later.beads.id.end(), 0); // who is who does not matter to the time
+  const dem::Particles &beads = steps.grains.particles;
+  later.beads = {};
+  for (std::size_t i = 0; i < beads.size(); ++i)
+    if (beads.position[i].z() > bulk.outlet)
+      later.beads.append(beads, i, static_cast<std::int64_t>(later.beads.size()));
   return later;
 }
 

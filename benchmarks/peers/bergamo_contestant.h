@@ -9,7 +9,7 @@ class BergamoContestant : public Contestant
 {
 public:
   std::string name() const override { return "Bergamo"; }
-  std::vector<double> distances() const override { return {0.05, 0.1, 0.2, 0.3}; }
+  std::vector<double> distances() const override { return {0.05, 0.1, 0.2, 0.4}; }
   Track run(const BulkCase &bulk, double distance) override;
   double time(const BulkCase &bulk, int n_steps, double distance) override;
 };

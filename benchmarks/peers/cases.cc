@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr double bead_radius = 2e-3;                           // [m]
-constexpr double flow_softening = 400., shot_softening = 100.; // of small cases, see begin()
+constexpr double flow_softening = 400., shot_softening = 100.; // see begin()
 constexpr double end_of_fall = 0.02;                           // below the orifice, where beads are taken out [m]
 constexpr double dense_fraction = 0.6;
 
@@ -37,7 +37,7 @@ double loose_height(const int n_beads, const double area)
   return n_beads * bead_volume() / loose_fraction / area;
 }
 
-/// @param softening of the beads in small cases; overlaps stay a hundredth of a bead. Hertz's step grows with its root.
+/// @param softening of the beads; their overlaps stay a hundredth of them. Hertz's step grows with its root.
 BulkCase begin(const std::string &name, const double published_step, const double softening)
 {
   BulkCase bulk;
@@ -52,7 +52,7 @@ BulkCase begin(const std::string &name, const double published_step, const doubl
 BulkCase silo_case(const CaseOptions &options)
 {
   BulkCase bulk =
-      begin("silo", options.silo_material == material_1 ? 1.5e-6 : 2e-6, options.full ? 1. : flow_softening);
+      begin("silo", options.silo_material == material_1 ? 1.5e-6 : 2e-6, options.is_soft ? flow_softening : 1.);
   const int n_beads = options.full ? 20000 : 1500;
   Silo silo;
   silo.radius = options.full ? 0.05 : 0.025;
@@ -68,7 +68,7 @@ BulkCase silo_case(const CaseOptions &options)
               .material_at = [material](const Vec3 &) { return material; }});
   set_duration(bulk, options.full ? 5. : 0.5, options.full ? 250 : 50);
   bulk.outlet = -end_of_fall;
-  bulk.developed = 0.1;
+  bulk.developed = 0.05;
   bulk.measure = {"beads above the orifice", "",
                   [](const Frame &frame)
                   {
@@ -80,7 +80,7 @@ BulkCase silo_case(const CaseOptions &options)
 
 BulkCase drum_case(const CaseOptions &options)
 {
-  BulkCase bulk = begin("drum", 1.5e-6, options.full ? 1. : flow_softening);
+  BulkCase bulk = begin("drum", 1.5e-6, options.is_soft ? flow_softening : 1.);
   const int n_beads = options.full ? 15000 : 1000;
   constexpr double filling = 0.45; // of the drum's volume, by beads and their pores
   Drum drum;
@@ -95,7 +95,7 @@ BulkCase drum_case(const CaseOptions &options)
               .stoppers = {},
               .material_at = [](const Vec3 &x) { return x.x() < 0. ? material_1 : material_2; }});
   set_duration(bulk, options.full ? 5. : 1.2, options.full ? 250 : 60);
-  bulk.developed = 0.5;
+  bulk.developed = 0.25;
   std::vector<std::uint8_t> is_first;
   for (const std::int32_t m : bulk.beads.parts.material)
     is_first.push_back(m == material_1);
@@ -113,7 +113,7 @@ BulkCase drum_case(const CaseOptions &options)
 
 BulkCase penetration_case(const CaseOptions &options)
 {
-  BulkCase bulk = begin("penetration", 5e-7, options.full ? 1. : shot_softening);
+  BulkCase bulk = begin("penetration", 5e-7, options.is_soft ? shot_softening : 1.);
   const int n_beads = options.full ? options.n_penetrated : 2500;
   OpenBox box;
   box.width = options.full ? 0.1 * std::cbrt(n_beads / 25000.) : 0.048; // deeper alike
@@ -135,7 +135,7 @@ BulkCase penetration_case(const CaseOptions &options)
                  Quaternion::Identity(), steel);
   bulk.beads.velocity.back() = Vec3(0., 0., -speed);
   set_duration(bulk, options.full ? 0.1 : 0.05, 100);
-  bulk.developed = options.full ? 0.003 : 0.006;
+  bulk.developed = 0.003;
   bulk.only_bead = n_beads;
   bulk.measure = {"depth of the ball's lowest point", "mm", [surface, ball_radius](const Frame &frame) {
                     return 1e3 * (surface - (frame.position.front().z() - ball_radius));

@@ -8,7 +8,8 @@ namespace bergamo::benchmark
 /// What the command line says about the cases.
 struct CaseOptions
 {
-  bool full = false;        ///< published sizes, moduli, steps and durations instead of small ones
+  bool full = false;        ///< many beads and published durations, instead of small ones
+  bool is_soft = false;     ///< beads softer than published, so that steps may be longer
   int n_penetrated = 25000; ///< beads under the ball, where full
   bool has_large_orifice = false;
   std::int32_t silo_material = material_1;

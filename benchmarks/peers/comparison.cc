@@ -51,32 +51,34 @@ AnswerDifference difference(const Answer &answer, const Answer &other)
   return result;
 }
 
-Comparison compare(const BulkCase &bulk, const std::vector<std::unique_ptr<Contestant>> &contestants,
-                   const ComparisonOptions &options, const std::function<void(const std::string &)> &log)
+std::vector<Answer> compare_answers(const BulkCase &bulk, const Contestants &contestants, const Log &log)
 {
-  Comparison result;
-  if (options.answers)
-    for (const auto &contestant : contestants)
-    {
-      log(bulk.name + ": " + contestant->name() + " runs it");
-      result.answers.push_back(answer(*contestant, contestant->name(), bulk));
-      if (contestant == contestants.front())
-        result.answers.push_back(
-            answer(*contestant, contestant->name() + ", start moved by 1 nm", perturbed(bulk, perturbation_seed)));
-    }
-  if (!options.times)
-    return result;
+  std::vector<Answer> answers;
+  for (const auto &contestant : contestants)
+  {
+    log(bulk.name + ": " + contestant->name() + " runs it");
+    answers.push_back(answer(*contestant, contestant->name(), bulk));
+    if (contestant == contestants.front())
+      answers.push_back(
+          answer(*contestant, contestant->name() + ", start moved by 1 nm", perturbed(bulk, perturbation_seed)));
+  }
+  return answers;
+}
+
+TimeComparison compare_times(const BulkCase &bulk, const Contestants &contestants, const TimingOptions &options,
+                             const Log &log)
+{
   log(bulk.name + ": all take turns");
   const BulkCase timed = advanced(bulk, bulk.developed);
-  result.n_beads_timed = timed.beads.size();
-  result.n_steps_timed = std::max(1, options.n_bead_steps / static_cast<int>(timed.beads.size()));
+  TimeComparison result;
+  result.n_beads = timed.beads.size();
+  result.n_steps = std::max(1, options.n_bead_steps / static_cast<int>(timed.beads.size()));
   for (const auto &contestant : contestants)
     result.timings.push_back(
-        {contestant->name(), fastest_distance(*contestant, timed, std::max(1, result.n_steps_timed / 2)), {}});
+        {contestant->name(), fastest_distance(*contestant, timed, std::max(1, result.n_steps / 2)), {}});
   for (int turn = 0; turn < options.n_turns; ++turn)
     for (std::size_t k = 0; k < contestants.size(); ++k)
-      result.timings[k].seconds.push_back(
-          contestants[k]->time(timed, result.n_steps_timed, result.timings[k].distance));
+      result.timings[k].seconds.push_back(contestants[k]->time(timed, result.n_steps, result.timings[k].distance));
   return result;
 }
 

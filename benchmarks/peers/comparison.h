@@ -36,26 +36,32 @@ struct Timing
   std::vector<double> seconds;
 };
 
-struct Comparison
+/// Times of all programs for the same steps from the same state on.
+struct TimeComparison
 {
-  std::vector<Answer> answers; ///< Bergamo's, Bergamo's of a start moved by nanometres, and the others'
   std::vector<Timing> timings; ///< Bergamo's, and the others'
-  std::size_t n_beads_timed = 0;
-  int n_steps_timed = 0;
+  std::size_t n_beads = 0;
+  int n_steps = 0; ///< a turn
+
+  double bead_steps() const { return static_cast<double>(n_beads) * n_steps; } ///< a turn
 };
+
+using Contestants = std::vector<std::unique_ptr<Contestant>>; ///< Bergamo first
+using Log = std::function<void(const std::string &)>;         ///< is given a line at each stage
+
+/// @return Bergamo's answer, Bergamo's for a start moved by nanometres, and the others'
+std::vector<Answer> compare_answers(const BulkCase &bulk, const Contestants &contestants, const Log &log);
 
 /// What is asked of the programs.
-struct ComparisonOptions
+struct TimingOptions
 {
-  bool answers = true, times = true;
   int n_turns = 5;
-  int n_bead_steps = 1'000'000; ///< of each turn
+  int n_bead_steps = 1'000'000; ///< a turn
 };
 
-/// Answers, one program after the other; then times, in turns from the same state on, each program with the fastest of
-/// the neighbour distances that it tries.
-/// @param contestants Bergamo first; @param log is given a line at each stage
-Comparison compare(const BulkCase &bulk, const std::vector<std::unique_ptr<Contestant>> &contestants,
-                   const ComparisonOptions &options, const std::function<void(const std::string &)> &log);
+/// Turn by turn, from where Bergamo has come when beads move as they will; each program with the fastest of the
+/// neighbour distances that it tries.
+TimeComparison compare_times(const BulkCase &bulk, const Contestants &contestants, const TimingOptions &options,
+                             const Log &log);
 
 } // namespace bergamo::benchmark

@@ -17,7 +17,7 @@ using namespace bergamo;
 using namespace bergamo::benchmark;
 
 template <class Peer>
-void add_peer(std::vector<std::unique_ptr<Contestant>> &contestants, const std::optional<std::string> &program)
+void add_peer(Contestants &contestants, const std::optional<std::string> &program)
 {
   if (!program)
     return;
@@ -27,27 +27,41 @@ void add_peer(std::vector<std::unique_ptr<Contestant>> &contestants, const std::
     log_line("'" + *program + "' was not found: going on without it. On Debian: apt install " + *program);
 }
 
-BulkCase make_case(const std::string &name, const CaseOptions &options)
+BulkCase make_case(const std::string &name, CaseOptions options, const bool is_soft)
 {
   log_line(name + ": beads come to rest");
+  options.is_soft = is_soft;
   return name == "silo" ? silo_case(options) : name == "drum" ? drum_case(options) : penetration_case(options);
+}
+
+template <class Figures>
+nlohmann::json report(const PeersOptions &options, const BulkCase &bulk, const Figures &figures)
+{
+  print(bulk, figures);
+  write_csv(options.output, bulk, figures);
+  return to_json(bulk, figures);
 }
 
 nlohmann::json measure(const PeersOptions &options)
 {
   omp_set_num_threads(1);
-  std::vector<std::unique_ptr<Contestant>> contestants;
+  Contestants contestants;
   contestants.push_back(std::make_unique<BergamoContestant>());
   add_peer<LiggghtsContestant>(contestants, options.liggghts);
   add_peer<YadeContestant>(contestants, options.yade);
   nlohmann::json figures = nlohmann::json::array();
   for (const std::string &name : options.cases)
   {
-    const BulkCase bulk = make_case(name, options.bulk);
-    const Comparison comparison = compare(bulk, contestants, options.comparison, log_line);
-    print(bulk, comparison);
-    write_csv(options.output, bulk, comparison);
-    figures.push_back(to_json(bulk, comparison));
+    if (options.answers)
+    {
+      const BulkCase bulk = make_case(name, options.bulk, !options.bulk.full);
+      figures.push_back(report(options, bulk, compare_answers(bulk, contestants, log_line)));
+    }
+    if (options.times)
+    {
+      const BulkCase bulk = make_case(name, options.bulk, false);
+      figures.push_back(report(options, bulk, compare_times(bulk, contestants, options.timing, log_line)));
+    }
   }
   return figures;
 }

@@ -11,8 +11,9 @@ namespace
 constexpr const char *footer = R"(
 The cases are those of Dosta et al. (2024), Comput. Phys. Commun. 109066: materials, frictions and restitutions are
 theirs, packings and vessels our own. They are spheres of 4 mm: 1500 out of a silo (--full: 20000), 1000 in a drum that
-turns with 2 rad/s (15000), 2500 under a ball of steel (25000, 50000 or 100000). Beads of small cases are softer than
-published, by a factor of 400, under the ball of 100, hence time steps 20 and 10 times as long. All programs read the same places, velocities and triangles, and
+turns with 2 rad/s (15000), 2500 under a ball of steel (25000, 50000 or 100000). For the answers of small cases
+beads are softer than published, by a factor of 400, under the ball of 100, hence time steps 20 and 10 times as long;
+times are those of the published moduli and steps. All programs read the same places, velocities and triangles, and
 step with the same time step and formulas; what cannot be the same stands in liggghts_contestant.h and
 yade_contestant.h. Contacts start without a memory of what was before.
 
@@ -28,7 +29,7 @@ Examples:
 
 void check(const PeersOptions &options)
 {
-  for (const int n : {options.comparison.n_turns, options.comparison.n_bead_steps})
+  for (const int n : {options.timing.n_turns, options.timing.n_bead_steps})
     require(n >= 1, "--turns or --bead-steps", n, "at least 1");
   std::error_code error;
   std::filesystem::create_directories(options.output, error);
@@ -62,10 +63,10 @@ std::optional<PeersOptions> parse_peers_options(const int argc, const char *cons
   app.add_option("--orifice", orifice, "Of the silo, small (30 mm) or large (40 mm) (default: small)")
       ->type_name("SIZE")
       ->check(CLI::IsMember({"small", "large"}));
-  app.add_flag("!--no-answers", options.comparison.answers, "Times alone");
-  app.add_flag("!--no-times", options.comparison.times, "Answers alone");
-  app.add_option("--turns", options.comparison.n_turns, "Of each program, for the times (default: 5)")->type_name("N");
-  app.add_option("--bead-steps", options.comparison.n_bead_steps, "Beads times steps of a turn (default: 1 million)")
+  app.add_flag("!--no-answers", options.answers, "Times alone");
+  app.add_flag("!--no-times", options.times, "Answers alone");
+  app.add_option("--turns", options.timing.n_turns, "Of each program, for the times (default: 5)")->type_name("N");
+  app.add_option("--bead-steps", options.timing.n_bead_steps, "Beads times steps of a turn (default: 1 million)")
       ->type_name("N");
   app.add_option("--output", options.output, "Folder for curves and times as csv (default: peers)")
       ->type_name("FOLDER");

@@ -15,7 +15,8 @@ struct PeersOptions
 {
   std::vector<std::string> cases{"silo", "drum", "penetration"};
   CaseOptions bulk;
-  ComparisonOptions comparison;
+  bool answers = true, times = true;
+  TimingOptions timing;
   std::optional<std::string> liggghts = "liggghts", yade = "yade"; ///< names or paths; nothing: left out
   std::filesystem::path output = "peers", json;
 };

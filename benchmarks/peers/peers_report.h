@@ -9,13 +9,16 @@
 namespace bergamo::benchmark
 {
 
-/// Prints differences and times of a case.
-void print(const BulkCase &bulk, const Comparison &comparison);
+/// Prints what the programs answer and how they differ. @param answers Bergamo's first
+void print(const BulkCase &bulk, const std::vector<Answer> &answers);
+void print(const BulkCase &bulk, const TimeComparison &times);
 
-/// Writes the answers as FOLDER/CASE.csv, with a column for the time and one for each program, and the times as
-/// FOLDER/CASE_times.csv; only what was measured.
-void write_csv(const std::filesystem::path &folder, const BulkCase &bulk, const Comparison &comparison);
+/// Writes FOLDER/CASE.csv, with a column for the time and one for each program.
+void write_csv(const std::filesystem::path &folder, const BulkCase &bulk, const std::vector<Answer> &answers);
+/// Writes FOLDER/CASE_times.csv, with a row for each program and turn.
+void write_csv(const std::filesystem::path &folder, const BulkCase &bulk, const TimeComparison &times);
 
-nlohmann::json to_json(const BulkCase &bulk, const Comparison &comparison);
+nlohmann::json to_json(const BulkCase &bulk, const std::vector<Answer> &answers);
+nlohmann::json to_json(const BulkCase &bulk, const TimeComparison &times);
 
 } // namespace bergamo::benchmark

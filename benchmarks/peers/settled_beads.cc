@@ -18,7 +18,7 @@ constexpr double fall_modulus = 2e6;  // of the softest beads while they fall [P
 constexpr double fall_step = 2e-5;    // stable for them [s]
 constexpr double fall_time = 0.3;     // at most [s]
 constexpr double relaxed_time = 0.02; // as what they are [s]
-constexpr double drag_rate = 200.;    // then: on the velocities [1/s]
+constexpr double drag_rate = 1000.;   // then: on the velocities [1/s]
 constexpr int steps_between_looks = 200;
 
 dem::Superquadric sphere(const double radius)
