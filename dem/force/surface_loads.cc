@@ -1,5 +1,7 @@
 #include "dem/force/surface_loads.h"
 
+#include <array>
+
 namespace bergamo::dem
 {
 namespace
@@ -28,6 +30,23 @@ void for_each_contact(const Particles &particles, const Contacts &contacts, cons
   }
 }
 
+/// The least forces on the nodes of a triangle that have no sum and a moment. In its plane the moment is that of forces
+/// along the normal, which the gradients of the shape functions give; along the normal that of forces around the
+/// middle.
+/// @param corner its nodes [m]; @param moment [N m]; @return by node [N]
+std::array<Vec3, 3> forces_of_moment(const std::array<Vec3, 3> &corner, const Vec3 &moment)
+{
+  const Vec3 a = corner[1] - corner[0], b = corner[2] - corner[0], normal = a.cross(b);
+  const Vec3 middle = (a + b) / 3.; // from the first corner
+  const std::array<Vec3, 3> edge{b - a, -b, a}, arm{-middle, a - middle, b - middle};
+  const Vec3 scaled = normal / normal.squaredNorm();
+  const double around = scaled.dot(moment) / (arm[0].squaredNorm() + arm[1].squaredNorm() + arm[2].squaredNorm());
+  std::array<Vec3, 3> forces;
+  for (int k = 0; k < 3; ++k)
+    forces[k] = edge[k].dot(moment) * scaled + around * normal.cross(arm[k]);
+  return forces;
+}
+
 /// Forces on the nodes of one contact: by the shape functions at the point of the feature straight below it; and what
 /// the force has as a moment about that point, half an overlap off, by the least forces on a face's nodes that have it.
 void add_node_forces(const Surface &surface, const FeatureOfSurface &f, const Vec3 &point, const Vec3 &force,
@@ -37,17 +56,11 @@ void add_node_forces(const Surface &surface, const FeatureOfSurface &f, const Ve
   for (int k = 0; k < 3; ++k)
     forces[shares.node[k]] += shares.share[k] * force;
   const Triangle &nodes = surface.topology.triangle[surface.face_of(f)];
-  const Vec3 moment = (point - shares.of(surface.node)).cross(force);
-  const Vec3 middle = (surface.node[nodes[0]] + surface.node[nodes[1]] + surface.node[nodes[2]]) / 3.;
-  Mat3 inertia = Mat3::Zero(); // of unit masses at the nodes
-  for (const std::int32_t n : nodes)
-  {
-    const Vec3 arm = surface.node[n] - middle;
-    inertia += arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
-  }
-  const Vec3 turn = inertia.inverse() * moment;
-  for (const std::int32_t n : nodes)
-    forces[n] += turn.cross(surface.node[n] - middle);
+  const std::array<Vec3, 3> turning =
+      forces_of_moment({surface.node[nodes[0]], surface.node[nodes[1]], surface.node[nodes[2]]},
+                       (point - shares.of(surface.node)).cross(force));
+  for (int k = 0; k < 3; ++k)
+    forces[nodes[k]] += turning[k];
 }
 
 } // namespace
