@@ -1,6 +1,7 @@
 // Speed of the steps of a settled dense packing, where the work of a quasi-static test lies: particle-steps per second
 // and core for sand and for spheres, with LIGGGHTS on the same spheres as the yardstick. `dense_packing --help`.
 
+#include "benchmarks/child_process.h"
 #include "benchmarks/dense_packing_options.h"
 #include "benchmarks/dense_packing_report.h"
 #include "benchmarks/packing_cache.h"
@@ -20,7 +21,7 @@ std::optional<std::filesystem::path> find_liggghts(const DensePackingOptions &op
 {
   if (!options.with_liggghts)
     return std::nullopt;
-  const auto program = Liggghts::find(options.liggghts);
+  const auto program = find_program(options.liggghts);
   if (!program)
     log_line("LIGGGHTS '" + options.liggghts +
              "' was not found: going on without it. On Debian: apt install liggghts, or give its path by --liggghts.");

@@ -1,18 +1,13 @@
 #include "benchmarks/liggghts.h"
 
-#include "dem/core/error.h"
+#include "benchmarks/liggghts_text.h"
+#include "dem/core/whole_file.h"
 #include "dem/loading/compression.h"
 
 #include <array>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <sstream>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <utility>
 
 namespace bergamo::benchmark
@@ -24,30 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::array skins{0.02, 0.05, 0.1, 0.2, 0.3}; // over the mean radius
 constexpr int trial_steps = 300;
-
-fs::path make_folder()
-{
-  std::string path = (fs::temp_directory_path() / "bergamo_liggghts_XXXXXX").string();
-  if (!mkdtemp(path.data()))
-    throw RunError("cannot make the folder " + path + " for LIGGGHTS; set TMPDIR to a folder you may write to");
-  return path;
-}
-
-std::string quoted(const fs::path &path)
-{
-  std::string text = "'";
-  for (const char c : path.string())
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-void write_text(const fs::path &path, const std::string &text)
-{
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush())
-    throw RunError("cannot write " + path.string() + "; free some space or set TMPDIR to another folder");
-}
 
 std::string data_text(const dem::Simulation &packing)
 {
@@ -67,68 +38,14 @@ std::string data_text(const dem::Simulation &packing)
   return text.str();
 }
 
-/// The number after the last `key` in a text.
-double number_after(const std::string &text, const std::string &key)
-{
-  const auto at = text.rfind(key);
-  if (at == std::string::npos)
-    throw RunError("LIGGGHTS printed no '" + key +
-                   "': this version is unknown here; go without it by "
-                   "--no-liggghts");
-  return std::strtod(text.c_str() + at + key.size(), nullptr);
-}
-
-/// The text between the `n`th key (from 0) and the next one.
-std::string part(const std::string &text, const std::string &key, const int n)
-{
-  std::size_t begin = 0;
-  for (int i = 0; i <= n && begin != std::string::npos; ++i)
-    begin = text.find(key, i == 0 ? 0 : begin + key.size());
-  if (begin == std::string::npos)
-    throw RunError("LIGGGHTS printed no '" + key +
-                   "': this version is unknown here; go without it by "
-                   "--no-liggghts");
-  return text.substr(begin, text.find(key, begin + key.size()) - begin);
-}
-
-std::string last_lines(const std::string &text)
-{
-  const std::size_t from = text.size() > 600 ? text.size() - 600 : 0;
-  const auto error = text.find("ERROR");
-  return text.substr(error == std::string::npos ? from : error);
-}
-
 } // namespace
 
-std::optional<fs::path> Liggghts::find(const std::string &program)
-{
-  const auto is_program = [](const fs::path &path)
-  {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
-  };
-  if (program.find('/') != std::string::npos)
-    return is_program(program) ? std::optional(fs::absolute(program)) : std::nullopt;
-  const char *const path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "/usr/bin");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (is_program(fs::path(folder) / program))
-      return fs::absolute(fs::path(folder) / program);
-  return std::nullopt;
-}
-
 Liggghts::Liggghts(fs::path program, const dem::Simulation &packing)
-    : program(std::move(program)), folder(make_folder()), parameters(packing.parameters()), walls(packing.walls)
+    : program(std::move(program)), folder("bergamo_liggghts"), parameters(packing.parameters()), walls(packing.walls)
 {
   const std::vector<double> &radius = packing.particles.bounding_radius;
   mean_radius = std::accumulate(radius.begin(), radius.end(), 0.) / radius.size();
-  write_text(folder / "spheres.data", data_text(packing));
-}
-
-Liggghts::~Liggghts()
-{
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
+  write_whole_file(folder.path() / "spheres.data", data_text(packing));
 }
 
 double Liggghts::fastest_skin() const
@@ -145,15 +62,6 @@ double Liggghts::fastest_skin() const
 
 std::string Liggghts::script(const int n_steps, const double skin) const
 {
-  const auto property = [](const std::string &name, const std::string &kind, const std::initializer_list<double> values)
-  {
-    std::ostringstream line;
-    line.precision(std::numeric_limits<double>::max_digits10);
-    line << "fix " << name << " all property/global " << name << ' ' << kind;
-    for (const double value : values)
-      line << ' ' << value;
-    return line.str() + '\n';
-  };
   // Its dashpot knows a coefficient of restitution only, bounded from below: 0.1 damps like a ratio of about 0.5. The
   // force of a contact at rest does not depend on it, nor does the time of a step.
   constexpr double restitution = 0.1;
@@ -162,20 +70,13 @@ std::string Liggghts::script(const int n_steps, const double skin) const
 
   std::ostringstream text;
   text.precision(std::numeric_limits<double>::max_digits10);
-  text << "atom_style granular\n"
-          "atom_modify map array\n"
-          "boundary f f f\n"
-          "newton off\n"
-          "communicate single vel yes\n"
-          "hard_particles yes\n" // it asks to confirm moduli above 1 GPa
-          "units si\n"
-          "read_data spheres.data\n"
-       << "neighbor " << skin * mean_radius << " bin\n"
-       << "neigh_modify delay 0\n" // its own recommendation for granular runs
-       << property("youngsModulus", "peratomtype", {grain.young_modulus, wall.young_modulus})
-       << property("poissonsRatio", "peratomtype", {grain.poisson_ratio, wall.poisson_ratio})
-       << property("coefficientRestitution", "peratomtypepair 2", {restitution, restitution, restitution, restitution})
-       << property("coefficientFriction", "peratomtypepair 2", {friction, wall_friction, wall_friction, wall_friction})
+  text << liggghts_begin("spheres.data", skin * mean_radius)
+       << liggghts_property("youngsModulus", "peratomtype", {grain.young_modulus, wall.young_modulus})
+       << liggghts_property("poissonsRatio", "peratomtype", {grain.poisson_ratio, wall.poisson_ratio})
+       << liggghts_property("coefficientRestitution", "peratomtypepair 2",
+                            {restitution, restitution, restitution, restitution})
+       << liggghts_property("coefficientFriction", "peratomtypepair 2",
+                            {friction, wall_friction, wall_friction, wall_friction})
        << "pair_style gran model hertz tangential history\n"
           "pair_coeff * *\n"
        << "timestep " << parameters.time_step << "\nfix motion all nve/sphere\n";
@@ -194,24 +95,10 @@ std::string Liggghts::script(const int n_steps, const double skin) const
 
 LiggghtsRun Liggghts::run(const int n_steps, const double skin) const
 {
-  write_text(folder / "in.spheres", script(n_steps, skin));
-  const std::string command = "cd " + quoted(folder) +
-                              " && OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " +
-                              quoted(program) + " -log none -in in.spheres 2>&1 < /dev/null";
-  FILE *const pipe = popen(command.c_str(), "r");
-  if (!pipe)
-    throw RunError("cannot start " + program.string() + "; go without it by --no-liggghts");
-  std::string output;
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
-    output.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  if (status != 0)
-    throw RunError(program.string() + " failed with status " +
-                   std::to_string(WIFEXITED(status) ? WEXITSTATUS(status) : status) + ": " + last_lines(output) +
-                   "\ngo without it by --no-liggghts");
+  write_whole_file(folder.path() / "in.spheres", script(n_steps, skin));
+  const std::string output = output_of(program, "-log none -in in.spheres", folder.path());
 
-  const std::string measured = part(output, "Loop time of ", 1); // 0 is the warm-up
+  const std::string measured = part_after(output, "Loop time of ", 1); // 0 is the warm-up
   LiggghtsRun result;
   result.seconds = number_after(measured, "Loop time of ");
   result.n_neighbours = number_after(measured, "Total # of neighbors = ");

@@ -1,10 +1,11 @@
 #pragma once
 
+#include "benchmarks/child_process.h"
 #include "dem/simulation/simulation.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace bergamo::benchmark
 {
@@ -26,14 +27,8 @@ class Liggghts
 public:
   static constexpr int warm_up_steps = 300; ///< not measured; contacts and their history exist afterwards
 
-  /// The path of a program by its name or path; nothing if there is none.
-  static std::optional<std::filesystem::path> find(const std::string &program);
-
   /// Writes the spheres where they are. @param packing spheres between six walls of a box, see box_walls()
   Liggghts(std::filesystem::path program, const dem::Simulation &packing);
-  ~Liggghts();
-  Liggghts(const Liggghts &) = delete;
-  Liggghts &operator=(const Liggghts &) = delete;
 
   /// Neighbour skin over the mean radius with which it is fastest here; tries each for some steps.
   double fastest_skin() const;
@@ -44,7 +39,8 @@ public:
 private:
   std::string script(int n_steps, double skin) const;
 
-  std::filesystem::path program, folder;
+  std::filesystem::path program;
+  TemporaryFolder folder;
   dem::SimulationParameters parameters;
   std::vector<dem::PlaneWall> walls;
   double mean_radius = 0.; ///< [m]
