@@ -24,7 +24,7 @@ void add_peer(Contestants &contestants, const std::optional<std::string> &progra
   if (const auto path = find_program(*program))
     contestants.push_back(std::make_unique<Peer>(*path));
   else
-    log_line("'" + *program + "' was not found: going on without it. On Debian: apt install " + *program);
+    log_line("'" + *program + "' was not found: going on without it. On Debian: apt install liggghts yade");
 }
 
 BulkCase make_case(const std::string &name, CaseOptions options, const bool is_soft)

@@ -24,7 +24,7 @@ Keep the machine free. Times are those of steps alone, one thread each, in turns
 Exit status: 0 done, 1 a run failed, 2 a mistake on the command line.
 
 Examples:
-  peers && /usr/bin/python3 benchmarks/peers/plot.py peers peers.png
+  peers && /usr/bin/python3 benchmarks/peers/plot.py results/peers peers.png
   peers --cases penetration --full --beads 50000 --no-answers --no-yade)";
 
 void check(const PeersOptions &options)
@@ -68,7 +68,7 @@ std::optional<PeersOptions> parse_peers_options(const int argc, const char *cons
   app.add_option("--turns", options.timing.n_turns, "Of each program, for the times (default: 5)")->type_name("N");
   app.add_option("--bead-steps", options.timing.n_bead_steps, "Beads times steps of a turn (default: 1 million)")
       ->type_name("N");
-  app.add_option("--output", options.output, "Folder for curves and times as csv (default: peers)")
+  app.add_option("--output", options.output, "Folder for curves and times as csv (default: results/peers)")
       ->type_name("FOLDER");
   app.add_option("--json", options.json, "Write the figures to this file, too")->type_name("FILE");
   app.add_option("--liggghts", *options.liggghts, "Name or path of LIGGGHTS (default: liggghts)")->type_name("PROGRAM");

@@ -18,7 +18,7 @@ struct PeersOptions
   bool answers = true, times = true;
   TimingOptions timing;
   std::optional<std::string> liggghts = "liggghts", yade = "yade"; ///< names or paths; nothing: left out
-  std::filesystem::path output = "peers", json;
+  std::filesystem::path output = "results/peers", json;
 };
 
 /// Nothing if only help was asked for; throws ConfigError for a mistake.

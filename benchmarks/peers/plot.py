@@ -49,6 +49,9 @@ def draw_times(panel, folder, cases):
     panel.set_xticks(range(len(cases)), cases)
     panel.set_title("speed")
     panel.set_ylabel("million bead-steps/s on one core")
+    panel.set_yticks([0.1, 0.2, 0.5, 1, 2, 5, 10], minor=False)
+    panel.yaxis.set_major_formatter("{x:g}")
+    panel.yaxis.set_minor_formatter("")
 
 
 def main():
@@ -60,14 +63,15 @@ def main():
     timed = [case for case in CASES if os.path.exists(os.path.join(options.folder, f"{case}_times.csv"))]
     if not answered and not timed:
         fail(f"{options.folder} holds no case; name the folder of `peers --output`")
-    figure, panels = new_panels(1, len(answered) + bool(timed))
-    for panel, case in zip(panels[0], answered):
-        draw_answers(panel, options.folder, case)
-    if answered:
-        panels[0][0].legend()
+    figure, panels = new_panels(2, 2)
+    places = iter(panels.flat)
+    for case in answered:
+        draw_answers(next(places), options.folder, case)
     if timed:
-        draw_times(panels[0][-1], options.folder, timed)
-        panels[0][-1].legend()
+        draw_times(next(places), options.folder, timed)
+    panels[0][0].legend()  # colours are those of all panels
+    for unused in places:
+        unused.set_visible(False)
     figure.savefig(options.picture, dpi=90)
 
 

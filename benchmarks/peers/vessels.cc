@@ -24,8 +24,8 @@ struct Mesh
     return static_cast<std::int32_t>(nodes.size() - ring.size());
   }
 
-  /// The wall between two closed rings of equally many nodes, normals to the left of who goes round on the first with
-  /// the second above him: inwards for rings that turn anticlockwise as seen from above.
+  /// The wall between two closed rings of n nodes. Normals point to the axis where the rings turn anticlockwise as seen
+  /// from the second one's side.
   void join(const std::int32_t low, const std::int32_t high, const std::int32_t n)
   {
     for (std::int32_t k = 0; k < n; ++k)
@@ -35,7 +35,7 @@ struct Mesh
     }
   }
 
-  /// Closes a ring by a fan. @param turned whether normals point against the ring's own
+  /// Closes a ring by a fan, anticlockwise with the ring. @param turned against it
   void close(const std::int32_t ring, const std::int32_t n, const Vec3 &centre, const bool turned)
   {
     const auto middle = static_cast<std::int32_t>(nodes.size());
