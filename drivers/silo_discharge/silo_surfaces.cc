@@ -73,7 +73,7 @@ SiloSurfaces make_silo(const SiloShape &s)
   {
     return sheet(
         {across, along}, [](const double u, const double v) { return Vec3(u, v, 0.); },
-        [from, to](const double u, double) { return std::abs(u) > 0.5 * from && std::abs(u) < 0.5 * to; });
+        [from, to](const double u, double) { return std::abs(u) >= 0.5 * from && std::abs(u) < 0.5 * to; });
   };
 
   SiloSurfaces silo;
