@@ -42,6 +42,7 @@ double height_of(const dem::Particles &grains, const double mass)
 
 bool Filling::begin()
 {
+  SiloSurfaces silo = surfaces_of(parameters);
   const Vec3 half(0.5 * parameters.width, 0.5 * parameters.depth, 0.);
   dem::PackingParameters packing = parameters.packing();
   packing.tightening.is_stopped = interrupted;
@@ -55,7 +56,7 @@ bool Filling::begin()
                    ": choose a smaller Filling/solid fraction");
   simulation = std::make_unique<dem::Simulation>(parameters.filling_simulation(), std::move(packed.particles),
                                                  std::vector<dem::PlaneWall>());
-  for (dem::Surface &surface : surfaces_of(parameters).surfaces)
+  for (dem::Surface &surface : silo.surfaces)
     simulation->add_surface(std::move(surface));
   return true;
 }
