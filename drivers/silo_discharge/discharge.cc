@@ -2,15 +2,12 @@
 
 #include "dem/io/grain_points_vtu.h"
 #include "dem/io/grid_vtu.h"
-#include "dem/measure/contact_list.h"
-#include "drivers/common/run/measured_columns.h"
 #include "drivers/common/run/model_pictures.h"
 #include "drivers/common/run/visit_models.h"
 #include "drivers/silo_discharge/filling.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace bergamo::driver
@@ -39,11 +36,10 @@ void write_field(const dem::HexahedronGrid &grid, const std::vector<Vec3> &veloc
 } // namespace
 
 Discharge::Discharge(const SiloParameters &p, const std::size_t number)
-    : parameters(p), orifice(number), outlet(outlet_of(p)), record(dem::HalfSpace{Vec3::UnitZ(), 0.}),
+    : parameters(p), orifice(number), outlet(outlet_of(p)), flow(dem::HalfSpace{Vec3::UnitZ(), 0.}),
       velocity(p.field_grid())
 {
   f.width = p.orifice_widths.at(orifice);
-  f.stable_step = std::numeric_limits<double>::infinity();
 }
 
 void Discharge::open(std::unique_ptr<dem::Simulation> filled)
@@ -69,7 +65,7 @@ double Discharge::fraction() const
 bool Discharge::is_over() const
 {
   return time() >= parameters.discharge_time || discharged_share() >= parameters.last_discharged ||
-         record.quiet_time() >= parameters.patience;
+         flow.record().quiet_time() >= parameters.patience;
 }
 
 void Discharge::compute()
@@ -81,26 +77,15 @@ void Discharge::compute()
 
 void Discharge::look()
 {
-  energy = simulation->energy();
-  residual.add(energy.balance(), energy.gravity_work);
-  loads = simulation->surface_loads();
+  flow.look(*simulation, time(), outlet.passed());
+  std::vector<dem::SurfaceLoad> &loads = flow.loads();
   for (; loads.size() > floor_surface + 1; loads.pop_back()) // of wider orifices, which are floor now
   {
     loads[floor_surface].force += loads.back().force;
     loads[floor_surface].moment += loads.back().moment;
   }
-  record.look(time(), simulation->particles, outlet.passed());
-  const double share = discharged_share();
-  if (share >= parameters.steady_from && share <= parameters.steady_until)
+  if (parameters.steady.contains(discharged_share()))
     velocity.add_velocities(simulation->particles);
-  const double overlap = dem::largest_relative_overlap(simulation->contacts, simulation->particles);
-  dem::check_overlap(overlap, time(), "a smaller Output/time step");
-  f.largest_overlap_over_radius = std::max(f.largest_overlap_over_radius, overlap);
-}
-
-void Discharge::look_at_step()
-{
-  f.stable_step = std::min(f.stable_step, simulation->stable_time_step());
 }
 
 std::vector<Picture> Discharge::pictures() const
@@ -126,49 +111,39 @@ std::vector<Picture> Discharge::pictures() const
 Table Discharge::table() const
 {
   Table table{{{"time_s", [this] { return time(); }}}};
-  table.add(record.columns());
-  table.add(columns_of(energy));
-  table.add({{"energy_residual_J", [this] { return residual.present(); }}});
-  table.add(columns_of(loads, open_surface_names(parameters)));
+  table.add(flow.columns(open_surface_names(parameters)));
   return table;
 }
 
 dem::MassFlow Discharge::steady_flow() const
 {
-  return dem::mass_flow(record.times(), record.masses(),
-                        {parameters.steady_from * start_mass, parameters.steady_until * start_mass},
-                        parameters.n_windows);
+  return dem::mass_flow(flow.record().times(), flow.record().masses(), parameters.steady.span(start_mass),
+                        parameters.steady.n_windows);
 }
 
 const DischargeFigures &Discharge::figures()
 {
-  const dem::MassFlow flow = steady_flow();
-  f.mass_flow = flow.mean;
-  f.mass_flow_deviation = flow.deviation;
-  f.steady_begin = flow.begin;
-  f.steady_end = flow.end;
+  const dem::MassFlow steady = steady_flow();
+  f.mass_flow = steady.mean;
+  f.mass_flow_deviation = steady.deviation;
+  f.steady_begin = steady.begin;
+  f.steady_end = steady.end;
   f.duration = time();
-  f.discharged_mass = record.mass();
-  f.discharged_grains = static_cast<double>(record.n_grains());
+  f.discharged_mass = flow.record().mass();
+  f.discharged_grains = static_cast<double>(flow.record().n_grains());
   f.grains_left = static_cast<double>(start_heights.size()) - f.discharged_grains;
-  f.stopped_by_itself = record.quiet_time() >= parameters.patience;
+  f.stopped_by_itself = flow.record().quiet_time() >= parameters.patience;
   f.n_steps = std::round(time() / parameters.simulation.time_step);
-  f.energy_residual = residual.relative();
+  f.stable_step = flow.stable_step();
+  f.largest_overlap_over_radius = flow.largest_overlap();
+  f.energy_residual = flow.energy_residual();
   f.n_undecided = static_cast<double>(simulation->contacts.n_undecided());
   return f;
 }
 
 void Discharge::write(const std::filesystem::path &folder) const
 {
-  const dem::MassFlow flow = steady_flow();
-  std::vector<std::vector<double>> windows;
-  const double length = (flow.end - flow.begin) / parameters.n_windows;
-  for (const double of_window : flow.windows)
-  {
-    const double begin = flow.begin + length * static_cast<double>(windows.size());
-    windows.push_back({begin, begin + length, of_window});
-  }
-  write_csv(folder / "mass_flow.csv", {"begin_s", "end_s", "mass_flow_kg_s"}, windows);
+  write_windows(folder / "mass_flow.csv", steady_flow());
   if (const auto mean = velocity.solve())
   {
     write_field(velocity.grid(), *mean, velocity.solid_fraction(), folder / "mean_velocity.vtu");
@@ -193,15 +168,12 @@ void Discharge::write_profiles(const std::vector<Vec3> &mean, const std::filesys
 
 void Discharge::visit(StateVisitor &visit)
 {
-  for (const auto &[name, value] : f.list())
-    visit("figures/" + name, *value);
   visit("start_time", start_time);
   visit("start_mass", start_mass);
   visit("start_heights", start_heights);
   visit("outlet", outlet);
   visit("velocity", velocity);
-  record.visit(visit);
-  residual.visit(visit);
+  flow.visit(visit);
   if (auto read = visit_grains(visit, simulation.get(), parameters.discharge_simulation()))
     simulation = std::move(read);
 }

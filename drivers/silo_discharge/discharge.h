@@ -2,12 +2,9 @@
 
 #include "dem/flow/outlet.h"
 #include "dem/measure/grid_fit.h"
-#include "dem/measure/mass_flow.h"
 #include "dem/simulation/simulation.h"
-#include "drivers/common/run/discharge_record.h"
-#include "drivers/common/run/energy_residual.h"
+#include "drivers/common/run/flow_sample.h"
 #include "drivers/common/run/picture_series.h"
-#include "drivers/common/run/table.h"
 #include "drivers/silo_discharge/figures.h"
 #include "drivers/silo_discharge/parameters.h"
 
@@ -38,7 +35,7 @@ public:
   /// @name Of the present step, between kick and drift
   /// @{
   void look();         ///< a sample: energies, loads, what has passed, velocities while the flow is steady
-  void look_at_step(); ///< at the stable step
+  void look_at_step() { flow.look_at_step(*simulation); }
   std::vector<Picture> pictures() const;
   /// @}
 
@@ -55,20 +52,17 @@ public:
 
 private:
   dem::MassFlow steady_flow() const;
-  double discharged_share() const { return record.mass() / start_mass; }
+  double discharged_share() const { return flow.record().mass() / start_mass; }
   void write_profiles(const std::vector<Vec3> &velocity, const std::filesystem::path &path) const;
 
   const SiloParameters &parameters;
   std::size_t orifice;
   std::unique_ptr<dem::Simulation> simulation;
   dem::Outlet outlet;
-  DischargeRecord record;
+  FlowSample flow;
   dem::GridFit velocity;
   double start_time = 0., start_mass = 0.; // [s], [kg]
   std::vector<double> start_heights;       // by id [m]
-  dem::GrainEnergy energy;
-  std::vector<dem::SurfaceLoad> loads;
-  EnergyResidual residual;
   DischargeFigures f;
 };
 

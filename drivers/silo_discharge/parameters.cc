@@ -63,11 +63,7 @@ void SiloParameters::declare(ParameterFile &file)
            Range::positive());
   file.add("Discharge", "outlet interval", outlet_interval, "between two looks for such grains [s]", Range::positive());
 
-  file.add("Steady flow", "first share", steady_from, "of the mass that is discharged when the steady flow begins",
-           Range::between(0, 1));
-  file.add("Steady flow", "last share", steady_until, "when it ends", Range::between(0, 1));
-  file.add("Steady flow", "windows", n_windows, "of equal time, whose flows have a standard deviation",
-           Range::between(2, 10000));
+  steady.declare(file);
 
   file.add("Velocity field", "height", field_height, "of the grid above the whole floor [m]", Range::positive());
   file.add("Velocity field", "cells", field_cells, "linear hexahedra along x, y and z", Range::between(1, 10000));
@@ -95,11 +91,7 @@ void SiloParameters::validate() const
   if (expected_solid_fraction < packing_solid_fraction)
     reject("Filling/expected solid fraction is ", expected_solid_fraction, ", below Filling/solid fraction, ",
            packing_solid_fraction, "; grains grow denser as they settle");
-  if (!(steady_until > steady_from))
-    reject("Steady flow/last share is ", steady_until, "; choose more than its first share, ", steady_from);
-  if (steady_until > last_discharged)
-    reject("Steady flow/last share is ", steady_until, ", but the discharge ends at Discharge/last share, ",
-           last_discharged, "; choose no more than that");
+  steady.validate(last_discharged);
   for (const double cells : field_cells)
     if (cells != std::floor(cells))
       reject("Velocity field/cells: ", cells, " is no whole number");

@@ -6,6 +6,7 @@
 #include "drivers/common/grading_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
+#include "drivers/common/steady_flow_parameters.h"
 
 #include <array>
 #include <cstdint>
@@ -44,8 +45,7 @@ struct SiloParameters
   double outlet_depth = 0.03;    ///< below the floor, where grains are taken away [m]
   double outlet_interval = 5e-3; ///< between two looks for such grains [s]
 
-  double steady_from = 0.1, steady_until = 0.4; ///< shares of the mass that have passed
-  int n_windows = 10;
+  SteadyFlowParameters steady;
 
   double field_height = 0.15; ///< of the grid, above the orifice [m]
   std::array<double, 3> field_cells{20., 1., 24.};
