@@ -32,7 +32,8 @@ void HourglassParameters::declare(ParameterFile &file)
   declare_grains(file, simulation);
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
-  file.add("Filling", "height", fill_height, "of the packing above the neck [m]", Range::positive());
+  file.add("Filling", "bottom", fill_bottom, "of the packing above the neck [m]", Range::non_negative());
+  file.add("Filling", "height", fill_height, "of its top above the neck [m]", Range::positive());
   file.add("Filling", "solid fraction", solid_fraction, "of the packing",
            {.lowest = 0, .highest = 0.7, .lowest_included = false});
   file.add("Filling", "seed", seed, "of the random numbers");
@@ -56,6 +57,8 @@ void HourglassParameters::validate() const
   if (!(glass.chamber_radius > glass.neck_radius))
     reject("Glass/chamber radius is ", glass.chamber_radius, " m; choose more than Glass/neck radius, ",
            glass.neck_radius, " m");
+  if (!(fill_height > fill_bottom))
+    reject("Filling/height is ", fill_height, " m; choose more than Filling/bottom, ", fill_bottom, " m");
   if (fill_height > glass.height())
     reject("Filling/height is ", fill_height, " m, but the chamber ends ", glass.height(),
            " m above the neck; choose less, or a higher Glass/cylinder height");

@@ -25,8 +25,8 @@ struct HourglassParameters
   GradingParameters sizes;
   dem::SimulationParameters simulation;
 
-  double fill_height = 14e-3;  ///< of the packing, above the neck [m]
-  double solid_fraction = 0.5; ///< of the packing
+  double fill_bottom = 0., fill_height = 14e-3; ///< of the packing, above the neck [m]
+  double solid_fraction = 0.5;                  ///< of the packing
   std::uint64_t seed = 1;
 
   double longest_time = 1.;      ///< [s]

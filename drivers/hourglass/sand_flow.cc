@@ -30,8 +30,8 @@ bool SandFlow::begin()
   dem::Surface glass = make_glass(parameters.glass);
   dem::PackingParameters packing = parameters.packing();
   packing.tightening.is_stopped = interrupted;
-  dem::PackedGrains packed =
-      parameters.sizes.pack(chamber_between(parameters.glass, 0., parameters.fill_height), packing, parameters.seed);
+  dem::PackedGrains packed = parameters.sizes.pack(
+      chamber_between(parameters.glass, parameters.fill_bottom, parameters.fill_height), packing, parameters.seed);
   if (interrupted())
     return false;
   if (!packed.report.has_reached_target)
