@@ -82,10 +82,10 @@ int HourglassRun::go()
     sand.write_windows(run.folder().file("mass_flow.csv"));
   };
   const double end = parameters.longest_time;
-  const auto times = [end](const unsigned n) { return either(every_time(end / n), at_the_end()); };
-  if (!run.advance(stage, {{times(parameters.output.n_samples), add_row},
-                           {every_steps(steps_between_looks), look_at_step},
-                           {times(std::max(1u, parameters.output.n_pictures - 1)), draw}}))
+  if (!run.advance(stage,
+                   {{every_time(end / parameters.output.n_samples), add_row}, // the flow ends by what a sample says
+                    {every_steps(steps_between_looks), look_at_step},
+                    {either(every_time(end / std::max(1u, parameters.output.n_pictures - 1)), at_the_end()), draw}}))
     return run.stop();
   return run.finish(summary(), {"hourglass/plot.py", "energy.py"});
 }

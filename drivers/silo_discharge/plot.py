@@ -40,7 +40,7 @@ def draw_discharge(folder, has_choi_orifice):
     if windows is not None:
         edges = np.append(windows["begin_s"], windows["end_s"][-1])
         right.stairs(windows["mass_flow_kg_s"] * 1e3, edges, baseline=None, color=COLOURS[0], linewidth=2,
-                     label="steady flow, windows")
+                     label="steady flow, windows", zorder=3)
     if has_choi_orifice:
         right.axhline(CHOI, color=COLOURS[1], linestyle="--", label="measured by Choi et al.")
         right.axhline(DISSERTATION, color=COLOURS[2], linestyle="-.", label="dissertation")
@@ -96,19 +96,19 @@ def draw_velocity(folder):
     run_data.save_diagram(figure, folder, "velocity.png")
 
 
-def front_beads(path):
-    """Places x, z, diameters and starting heights of the first layer of beads behind the front."""
+def front_beads(path, depth):
+    """Places x, z, diameters and starting heights of the first layer of beads behind the front, in cm."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     grid = read_vtu(path)
     places = vtk_to_numpy(grid.GetPoints().GetData())
     diameter = vtk_to_numpy(grid.GetPointData().GetArray("diameter"))
     height = vtk_to_numpy(grid.GetPointData().GetArray("start_height"))
-    front = np.flatnonzero(places[:, 1] < places[:, 1].min() + diameter.max())
+    front = np.flatnonzero(places[:, 1] < -0.5 * depth + diameter.max())
     front = front[np.argsort(-places[front, 1])]  # the nearest are drawn last
     return places[front][:, [0, 2]] * 1e2, diameter[front] * 1e2, height[front] * 1e2
 
 
-def draw_grains(folder):
+def draw_grains(folder, depth):
     from matplotlib.collections import EllipseCollection
     files = sorted(glob.glob(os.path.join(glob.escape(folder), "grains_*.vtu")))
     if not files:
@@ -116,7 +116,7 @@ def draw_grains(folder):
     shown = [files[k] for k in np.unique(np.linspace(0, len(files) - 1, 4).round().astype(int))]
     run_data.new_diagram_look()
     from matplotlib import pyplot
-    beads = [front_beads(path) for path in shown]
+    beads = [front_beads(path, depth) for path in shown]
     limits = np.array([beads[0][0].min(axis=0), beads[0][0].max(axis=0)]) + beads[0][1].max() * np.array([[-1], [1]])
     wide, high = limits[1] - limits[0]
     figure, panels = pyplot.subplots(1, len(shown), squeeze=False, sharey=True, layout="constrained",
@@ -173,13 +173,14 @@ def main():
     folder = parser.parse_args().run_folder
     parameters = run_data.read_parameters(folder)
     widths = [float(width) for width in parameters.get("Silo/orifice widths", "").split(",") if width.strip()]
+    depth = float(parameters["Silo/depth"])
     summary, discharges = run_data.read_summary(folder), rows_of(folder, "discharges.csv")
     several = sorted(glob.glob(os.path.join(glob.escape(folder), "discharges", "*mm")))
     for one in several or [folder]:
         width = float(os.path.basename(one)[:-2]) * 1e-3 if several else widths[0]
-        draw_discharge(one, abs(width - 0.016) < 1e-9 and abs(float(parameters["Silo/depth"]) - 0.025) < 1e-9)
+        draw_discharge(one, abs(width - 0.016) < 1e-9 and abs(depth - 0.025) < 1e-9)
         draw_velocity(one)
-        draw_grains(one)
+        draw_grains(one, depth)
     if several and discharges is not None and "bulk_density_kg_m3" in summary:
         draw_beverloo(folder, discharges, summary)
 

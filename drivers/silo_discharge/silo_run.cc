@@ -168,10 +168,10 @@ bool SiloRun::discharge()
     present->write(folder());
   };
   const double end = parameters.discharge_time;
-  const auto times = [end](const unsigned n) { return either(every_time(end / n), at_the_end()); };
-  return run.advance(stage, {{times(parameters.output.n_samples), add_row},
-                             {every_time(end / 10.), look_at_step},
-                             {times(std::max(1u, parameters.output.n_pictures - 1)), draw}});
+  return run.advance(
+      stage, {{every_time(end / parameters.output.n_samples), add_row}, // a discharge ends by what a sample says
+              {every_time(end / 10.), look_at_step},
+              {either(every_time(end / std::max(1u, parameters.output.n_pictures - 1)), at_the_end()), draw}});
 }
 
 } // namespace bergamo::driver
