@@ -5,6 +5,7 @@ Usage: hourglass.py PROGRAM [TOPIC]
 """
 
 import csv
+import json
 import signal
 import subprocess
 import sys
@@ -72,7 +73,7 @@ class Results(Case):
 class Restart(Case):
     def test_kill(self):
         settings = ["Discharge/last share=0.2", "Steady flow/last share=0.2"]
-        self.figures("whole", settings)
+        whole = self.figures("whole", settings)
         parts = self.tmp / "parts"
         options = SNAPSHOTS_BY_STEPS
         for rows, send in ((5, signal.SIGKILL), (20, signal.SIGINT)):
@@ -84,6 +85,9 @@ class Restart(Case):
         self.assertEqual(result.returncode, 0, result.stderr)
         for file in ("history.csv", "mass_flow.csv"):
             self.assertEqual((parts / file).read_text(), (self.tmp / "whole" / file).read_text(), file)
+        figures = json.loads((parts / "summary.json").read_text())
+        for name in set(whole) - {"wall_time_s", "particle_steps_per_second"}:
+            self.assertEqual(figures[name], whole[name], name)
 
 
 class BadInput(Case):

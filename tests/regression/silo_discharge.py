@@ -5,6 +5,7 @@ Usage: silo_discharge.py PROGRAM [TOPIC]
 """
 
 import csv
+import json
 import signal
 import subprocess
 import sys
@@ -140,7 +141,7 @@ class Restart(Case):
     def test_kill(self):
         """Killed while it is filled and stopped by Ctrl-C in its second discharge: the same to the last bit."""
         settings = ["Silo/orifice widths=0.015, 0.018", "Discharge/last share=0.4"]
-        self.figures("whole", settings)
+        figures = self.figures("whole", settings)
         parts = self.tmp / "parts"
         options = SNAPSHOTS_BY_STEPS
         for table, rows, send in (("filling.csv", 1, signal.SIGKILL),
@@ -155,6 +156,9 @@ class Restart(Case):
         for file in ("filling.csv", "discharges.csv", *(f"discharges/{width}/{name}.csv" for width in ("15mm", "18mm")
                                                         for name in ("history", "profiles", "mass_flow"))):
             self.assertEqual((parts / file).read_text(), (whole / file).read_text(), file)
+        restarted = json.loads((parts / "summary.json").read_text())
+        for name in set(figures) - {"wall_time_s", "particle_steps_per_second"}:
+            self.assertEqual(restarted[name], figures[name], name)
         picture = "discharges/18mm/mean_velocity.vtu"
         self.assertEqual((parts / picture).read_bytes(), (whole / picture).read_bytes())
 
