@@ -139,13 +139,14 @@ class Results(Case):
 
 class Restart(Case):
     def test_kill(self):
-        """Killed while it is filled and stopped by Ctrl-C in its second discharge: the same to the last bit."""
+        """Killed while it is filled and stopped by Ctrl-C in the steady flow of its second discharge, when grains have been
+        taken away: the same to the last bit."""
         settings = ["Silo/orifice widths=0.015, 0.018", "Discharge/last share=0.4"]
         figures = self.figures("whole", settings)
         parts = self.tmp / "parts"
         options = SNAPSHOTS_BY_STEPS
         for table, rows, send in (("filling.csv", 1, signal.SIGKILL),
-                                  ("discharges/18mm/history.csv", 5, signal.SIGINT)):
+                                  ("discharges/18mm/history.csv", 18, signal.SIGINT)):
             has_snapshot = renewal(parts / "snapshot.h5")
             stop_when(lambda: has_snapshot() and n_rows(parts / table) > rows,
                       self.command(parts, settings, *options), send)
