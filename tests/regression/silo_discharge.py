@@ -76,9 +76,13 @@ class Results(Case):
         usual, = figures["usual_beverloo_flows_kg_s"]
         self.assertTrue(0.6 < flow / usual < 1.1, (flow, usual))
         self.assertTrue(0 < figures["mass_flow_deviations_kg_s"][0] < 0.3 * flow, figures)
-        windows = [window["mass_flow_kg_s"] for window in self.table("silo", "mass_flow.csv")]
+        windows = self.table("silo", "mass_flow.csv")
         self.assertEqual(len(windows), 10)
-        self.assertAlmostEqual(sum(windows) / 10, flow, delta=1e-9)
+        self.assertAlmostEqual(sum(window["mass_flow_kg_s"] for window in windows) / 10, flow, delta=1e-9)
+        for time, share in ((windows[0]["begin_s"], 0.1), (windows[-1]["end_s"], 0.4)):
+            before = max(sample["discharged_mass_kg"] for sample in history if sample["time_s"] <= time)
+            after = min(sample["discharged_mass_kg"] for sample in history if sample["time_s"] >= time)
+            self.assertTrue(before <= share * figures["filled_mass_kg"] <= after, (before, after))
 
         profile = self.table("silo", "profiles.csv")
         self.assertEqual({sample["height_m"] for sample in profile}, {0.015})
