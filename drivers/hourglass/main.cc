@@ -49,8 +49,12 @@ int HourglassRun::go()
   steps_over({"Discharge/longest time", parameters.longest_time},
              {"Output/time step", parameters.simulation.time_step}); // or refused
   run.open();
-  if (run.loop().begins_stage() && !sand.begin())
-    return run.stop();
+  if (run.loop().begins_stage())
+  {
+    run.write_snapshot(); // packing takes long, and may be interrupted
+    if (!sand.begin())
+      return run.stop();
+  }
   const Table table = sand.table();
   History history = run.history(table);
   dem::Simulation &grains = sand.grains();

@@ -136,6 +136,10 @@ void SandFlow::add_figures(Summary &summary, RunFigures run) const
 
 void SandFlow::visit(StateVisitor &visit)
 {
+  std::int64_t is_packed = simulation != nullptr;
+  visit("is_packed", is_packed);
+  if (is_packed == 0)
+    return;
   visit("start_heights", start_heights);
   visit("mass", mass);
   visit("n_steady", n_steady);

@@ -34,7 +34,7 @@ public:
 
   /// @name Of the present step, between kick and drift
   /// @{
-  void look();         ///< a sample: energies, loads, what has passed, velocities while the flow is steady
+  void look(); ///< a sample: energies, loads, what has passed, velocities while the flow is steady
   void look_at_step() { flow.look_at_step(*simulation); }
   std::vector<Picture> pictures() const;
   /// @}

@@ -40,11 +40,7 @@ void SiloRun::visit(StateVisitor &visit)
   visit("is_filled", is_filled);
   stable_step.visit(visit);
   if (is_filled == 0)
-  {
-    if (visit.is_reading())
-      filling = std::make_unique<Filling>(parameters);
-    return filling->visit(visit);
-  }
+    return visit_filling(visit);
   for (const auto &[name, value] : filling_figures.list())
     visit("filling/" + name, *value);
   visit_done(visit, done);
@@ -55,6 +51,18 @@ void SiloRun::visit(StateVisitor &visit)
   }
   present->visit(visit);
   pictures->visit(visit);
+}
+
+/// Of a run that was stopped before its grains were packed there is none.
+void SiloRun::visit_filling(StateVisitor &visit)
+{
+  std::int64_t is_packed = filling != nullptr;
+  visit("is_packed", is_packed);
+  if (is_packed == 0)
+    return;
+  if (visit.is_reading())
+    filling = std::make_unique<Filling>(parameters);
+  filling->visit(visit);
 }
 
 int SiloRun::go()
@@ -82,12 +90,6 @@ int SiloRun::go()
   return run.finish(summary, {"silo_discharge/plot.py"});
 }
 
-History SiloRun::history(const std::filesystem::path &file, const Table &table) const
-{
-  return run.loop().begins_stage() ? History(file, table.names())
-                                   : History::continued(file, table.names(), run.loop().last_time());
-}
-
 Stage SiloRun::stage_of(dem::Simulation &grains) const
 {
   Stage stage;
@@ -100,13 +102,15 @@ bool SiloRun::fill()
 {
   if (run.loop().begins_stage())
   {
+    filling.reset();
+    run.write_snapshot(); // packing takes long, and may be interrupted
     filling = std::make_unique<Filling>(parameters);
     if (!filling->begin())
       return false;
   }
   dem::Simulation &grains = filling->grains();
   const Table table = filling->table();
-  History rows = history(run.folder().file("filling.csv"), table);
+  History rows = run.history(table, run.folder().file("filling.csv"));
   Stage stage = stage_of(grains);
   stage.name = "filling";
   stage.time = [&] { return filling->time(); };
@@ -145,7 +149,7 @@ void SiloRun::open_next()
 bool SiloRun::discharge()
 {
   const Table table = present->table();
-  History rows = history(folder() / "history.csv", table);
+  History rows = run.history(table, folder() / "history.csv");
   Stage stage = stage_of(present->grains());
   stage.name = "discharge " + SiloParameters::orifice_name(parameters.orifice_widths[done.size()]);
   stage.time = [&] { return present->time(); };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "drivers/common/history.h"
 #include "drivers/common/run/picture_series.h"
 #include "drivers/common/run/run.h"
 #include "drivers/common/run/stable_step_watch.h"
@@ -27,10 +26,10 @@ public:
 private:
   std::filesystem::path folder() const;
   void visit(StateVisitor &visit);
+  void visit_filling(StateVisitor &visit);
   bool fill();
   bool discharge();
   void open_next();
-  History history(const std::filesystem::path &file, const Table &table) const;
   Stage stage_of(dem::Simulation &grains) const;
 
   const SiloParameters &parameters;

@@ -76,7 +76,7 @@ class Restart(Case):
         whole = self.figures("whole", settings)
         parts = self.tmp / "parts"
         options = SNAPSHOTS_BY_STEPS
-        for rows, send in ((5, signal.SIGKILL), (20, signal.SIGINT)):
+        for rows, send in ((-1, signal.SIGINT), (5, signal.SIGKILL), (20, signal.SIGINT)):  # while it is packed, and twice in its flow
             has_snapshot = renewal(parts / "snapshot.h5")
             stop_when(lambda: has_snapshot() and n_rows(parts / "history.csv") > rows,
                       self.command(parts, settings, *options), send)

@@ -6,6 +6,7 @@ Usage: silo_discharge.py PROGRAM [TOPIC]
 
 import csv
 import json
+import shutil
 import signal
 import subprocess
 import sys
@@ -143,13 +144,13 @@ class Results(Case):
 
 class Restart(Case):
     def test_kill(self):
-        """Killed while it is filled and stopped by Ctrl-C in the steady flow of its second discharge, when grains have been
+        """Stopped before or while it is packed, killed while it is filled, and stopped by Ctrl-C in the steady flow of its second discharge, when grains have been
         taken away: the same to the last bit."""
         settings = ["Silo/orifice widths=0.015, 0.018", "Discharge/last share=0.4"]
         figures = self.figures("whole", settings)
         parts = self.tmp / "parts"
         options = SNAPSHOTS_BY_STEPS
-        for table, rows, send in (("filling.csv", 1, signal.SIGKILL),
+        for table, rows, send in (("filling.csv", -1, signal.SIGINT), ("filling.csv", 1, signal.SIGKILL),
                                   ("discharges/18mm/history.csv", 18, signal.SIGINT)):
             has_snapshot = renewal(parts / "snapshot.h5")
             stop_when(lambda: has_snapshot() and n_rows(parts / table) > rows,
@@ -192,8 +193,7 @@ class BadInput(Case):
     def test_failures(self):
         self.assert_refused(["Filling/solid fraction=0.6"], "geometric packing got stuck", "Filling/solid fraction",
                             status=1, writes=True)
-        self.tmp.joinpath("refused", "parameters.prm").unlink()
-        self.tmp.joinpath("refused").rmdir()
+        shutil.rmtree(self.tmp / "refused")
         self.assert_refused(["Filling/longest time=0.07"], "have not come to rest after Filling/longest time", status=1,
                             writes=True)
 
