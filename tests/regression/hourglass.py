@@ -68,6 +68,7 @@ class Results(Case):
                                            "Filling/solid fraction=0.2", "Discharge/patience=0.06"])
         self.assertIs(figures["stopped_by_itself"], True)
         self.assertLess(figures["discharged_mass_kg"], 0.5 * figures["mass_kg"])
+        self.assertLess(figures["discharge_time_s"], 0.25)  # of 0.3
 
 
 class Restart(Case):
