@@ -120,16 +120,21 @@ VtuArray index_array(const std::string &name, const std::vector<int> &first, con
 
 } // namespace
 
+void check_fields(const Particles &particles, const std::span<const GrainField> fields)
+{
+  for (const GrainField &field : fields)
+    if (field.values.size() != particles.size())
+      throw ConfigError("field '" + field.name + "' has " + std::to_string(field.values.size()) + " values for " +
+                        std::to_string(particles.size()) + " grains: give one value a grain");
+}
+
 void write_grains_vtu(const Particles &particles, const std::span<const GrainField> fields,
                       const std::filesystem::path &path, const int n_per_quarter)
 {
   if (n_per_quarter < 2 || n_per_quarter % 2 != 0)
     throw ConfigError("grain surfaces need an even number of steps a quarter turn, at least 2, not " +
                       std::to_string(n_per_quarter));
-  for (const GrainField &field : fields)
-    if (field.values.size() != particles.size())
-      throw ConfigError("field '" + field.name + "' has " + std::to_string(field.values.size()) + " values for " +
-                        std::to_string(particles.size()) + " grains: give one value a grain");
+  check_fields(particles, fields);
 
   const Globe globe(n_per_quarter);
   const std::size_t n_parts = particles.parts.size();

@@ -16,6 +16,9 @@ struct GrainField
   std::span<const double> values; ///< one a grain, in the order of the particles
 };
 
+/// Throws ConfigError for a field whose length is not the number of grains.
+void check_fields(const Particles &particles, std::span<const GrainField> fields);
+
 /// Writes every grain as its true surface, in its place and orientation, as a VTU file for ParaView.
 ///
 /// The surface is sampled at Barr's angles, `n_per_quarter` steps a quarter turn (even, at least 2), which lie between

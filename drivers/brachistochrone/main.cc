@@ -87,8 +87,7 @@ bool Slides::go_down()
   std::filesystem::create_directories(folder());
   const std::filesystem::path file = folder() / "history.csv";
   const Table table = slide->table();
-  History history = run.loop().begins_stage() ? History(file, table.names())
-                                              : History::continued(file, table.names(), run.loop().last_time());
+  History history = run.history(table, file);
   dem::Simulation &grains = slide->grains();
   const double expected = slide->exact_travel_time();
   Stage stage;

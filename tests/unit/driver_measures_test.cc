@@ -1,4 +1,5 @@
 #include "coupling/adapter/model_energy.h"
+#include "dem/force/surface_loads.h"
 #include "dem/loading/cell_measures.h"
 #include "drivers/common/run/energy_residual.h"
 #include "drivers/common/run/measured_columns.h"
@@ -88,6 +89,37 @@ TEST_CASE("the columns of a model's energies add up to its balance")
   for (const auto &[name, value] : values_of(columns_of(energy)))
     sum += name.find("work") == std::string::npos ? value : -value;
   CHECK(sum == energy.balance());
+}
+
+TEST_CASE("the columns of grains' energies add up to their balance")
+{
+  dem::GrainEnergy energy;
+  double power = 1.;
+  for (double *part :
+       {&energy.kinetic, &energy.normal, &energy.tangential, &energy.friction_loss, &energy.viscous_loss,
+        &energy.curvature_work, &energy.search_work, &energy.quadrature_work, &energy.wall_work, &energy.gravity_work})
+    *part = power *= 2.;
+  energy.exchanged = -1.;
+  double sum = 0.;
+  for (const auto &[name, value] : values_of(columns_of(energy)))
+    sum += name.find("work") == std::string::npos && name != "energy_exchanged_J" ? value : -value;
+  CHECK(sum == energy.balance());
+}
+
+TEST_CASE("each surface has its force and moment, and none once it is gone")
+{
+  std::vector<dem::SurfaceLoad> loads{{Vec3(1., 2., 3.), Vec3(4., 5., 6.)}, {Vec3(7., 8., 9.), Vec3(10., 11., 12.)}};
+  const std::vector<Column> columns = columns_of(loads, {"wall", "floor"});
+  CHECK(columns.size() == 12);
+  auto values = values_of(columns);
+  CHECK(values["wall_force_x_N"] == 1.);
+  CHECK(values["wall_moment_z_Nm"] == 6.);
+  CHECK(values["floor_force_y_N"] == 8.);
+  CHECK(values["floor_moment_x_Nm"] == 10.);
+  loads.pop_back();
+  values = values_of(columns);
+  CHECK(values["wall_force_y_N"] == 2.);
+  CHECK(values["floor_force_y_N"] == 0.);
 }
 
 TEST_CASE("further columns stand to the right")

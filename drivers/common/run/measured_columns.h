@@ -2,6 +2,7 @@
 
 #include "drivers/common/run/table.h"
 
+#include <string>
 #include <vector>
 
 namespace bergamo
@@ -13,7 +14,9 @@ struct ModelEnergy;
 namespace dem
 {
 struct CellMeasures;
-}
+struct GrainEnergy;
+struct SurfaceLoad;
+} // namespace dem
 } // namespace bergamo
 
 namespace bergamo::driver
@@ -24,6 +27,12 @@ namespace bergamo::driver
 /// @{
 std::vector<Column> columns_of(const dem::CellMeasures &cell); ///< strains, stresses and so on to energies, no time
 std::vector<Column> columns_of(const coupling::ModelEnergy &energy);
+std::vector<Column>
+columns_of(const dem::GrainEnergy &energy); ///< of grains among walls and surfaces, that come and go
+
+/// Force on each surface and its moment about the origin, of as many surfaces as there are names ("floor_force_z_N");
+/// @param loads as Simulation::surface_loads() lists them; those that are not there any more have none
+std::vector<Column> columns_of(const std::vector<dem::SurfaceLoad> &loads, const std::vector<std::string> &names);
 /// @}
 
 } // namespace bergamo::driver

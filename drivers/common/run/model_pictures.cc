@@ -32,13 +32,18 @@ void write_surfaces(const dem::Simulation &grains, const std::filesystem::path &
 
 } // namespace
 
+Picture picture_of_surfaces(const dem::Simulation &grains)
+{
+  return {"surfaces", [&grains](const auto &path) { write_surfaces(grains, path); }};
+}
+
 std::vector<Picture> pictures_of(const dem::Simulation *grains, const fe::ExplicitBody *body)
 {
   std::vector<Picture> pictures;
   if (grains)
     pictures.emplace_back("grains", [grains](const auto &path) { write_grains(*grains, path); });
   if (grains && !grains->surfaces.empty())
-    pictures.emplace_back("surfaces", [grains](const auto &path) { write_surfaces(*grains, path); });
+    pictures.push_back(picture_of_surfaces(*grains));
   if (body)
     pictures.emplace_back("continuum", [body](const auto &path) { fe::write_vtu(*body, path); });
   return pictures;

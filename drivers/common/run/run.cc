@@ -46,10 +46,10 @@ void Run::open()
     write_whole_file(folder_.parameters(), parameters_);
 }
 
-History Run::history(const Table &table) const
+History Run::history(const Table &table, const std::filesystem::path &file) const
 {
-  return loop_.begins_stage() ? History(folder_.history(), table.names())
-                              : History::continued(folder_.history(), table.names(), loop_.last_time());
+  return loop_.begins_stage() ? History(file, table.names())
+                              : History::continued(file, table.names(), loop_.last_time());
 }
 
 Stage Run::even_stage(const std::string &name, const std::int64_t n_steps, const double time_step) const

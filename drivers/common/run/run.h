@@ -11,6 +11,7 @@
 #include "drivers/common/summary.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -58,7 +59,10 @@ public:
 
   /// history.csv with the columns of the table, new at the first step of the stage, otherwise with the rows of the
   /// steps that are done.
-  History history(const Table &table) const;
+  History history(const Table &table) const { return history(table, folder_.history()); }
+
+  /// The same in another file.
+  History history(const Table &table, const std::filesystem::path &file) const;
 
   /// A stage of n_steps steps of one length [s] from time 0; compute and move are left to fill in.
   Stage even_stage(const std::string &name, std::int64_t n_steps, double time_step) const;

@@ -21,6 +21,8 @@ class Table
 public:
   Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
+  const std::vector<Column> &columns() const { return columns_; }
+
   /// Puts further columns to the right.
   void add(const std::vector<Column> &columns) { columns_.insert(columns_.end(), columns.begin(), columns.end()); }
 
