@@ -91,6 +91,9 @@ VerletList parts_near_surfaces(const Particles &p, const std::span<const Surface
   list.row.assign(n + 1, 0);
   if (surfaces.empty())
     return list;
+  double largest_offset = 0.;
+  for (const Surface &surface : surfaces)
+    largest_offset = std::max(largest_offset, surface.offset);
   std::vector<std::vector<std::int32_t>> near(n);
   parallel_for(n,
                [&](const std::size_t k)
@@ -98,8 +101,8 @@ VerletList parts_near_surfaces(const Particles &p, const std::span<const Surface
                  if (p.is_fixed(p.parts.particle[k]) || !search.seeks(k))
                    return;
                  const Vec3 &centre = search.places[k];
-                 const double reach = p.parts.bounding_radius[k] + search.range;
-                 const Vec3 around = Vec3::Constant(reach);
+                 const double reach_of_part = p.parts.bounding_radius[k] + search.range;
+                 const Vec3 around = Vec3::Constant(reach_of_part + largest_offset);
                  std::vector<Entry> found;
                  faces.tree.query(bg::index::intersects(Box(point(centre - around), point(centre + around))),
                                   std::back_inserter(found));
@@ -107,6 +110,7 @@ VerletList parts_near_surfaces(const Particles &p, const std::span<const Surface
                  {
                    const Surface &surface = surfaces[face.surface];
                    const SurfaceTopology &t = surface.topology;
+                   const double reach = reach_of_part + surface.offset;
                    const auto &[a, b, c] = t.triangle[face.number];
                    const auto add_near = [&](const Vec3 &nearest, const std::size_t offset, const std::int32_t number)
                    {

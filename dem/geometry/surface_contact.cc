@@ -14,7 +14,7 @@ namespace bergamo::dem
 SurfaceLook::Foot SurfaceLook::foot_against(const Vec3 &normal, const Vec3 &point) const
 {
   const PlacedSupport<double> s = support(body, Vec3(-normal));
-  return {normal, s.arm, s.height - normal.dot(body.position - point)};
+  return {normal, s.arm, s.height - normal.dot(body.position - point) + surface.offset};
 }
 
 const SurfaceLook::FaceFoot &SurfaceLook::on_face(const std::int32_t f)
@@ -158,9 +158,10 @@ int SurfaceLook::index_of(const Feature feature, const std::int32_t number)
     TangentFrame frame;
     frame << turned, along;
     const PlacedSupport<double> s = support(body, Vec3(-normal), frame);
-    foot = {normal, s.arm, s.height - normal.dot(body.position - point)};
+    const double depth = s.height - normal.dot(body.position - point);
+    foot = {normal, s.arm, depth + surface.offset};
     const double slope = -turned.dot(body.position + s.arm - point); // of the overlap
-    const double curvature = s.radii.r11 - foot.overlap;
+    const double curvature = s.radii.r11 - depth;
     (slope > 0. ? high : low) = angle;
     const double newton = angle - slope / curvature;
     const bool gets_on = std::abs(slope) < 0.5 * last && curvature > 0. && newton > low && newton < high;
@@ -368,6 +369,7 @@ SeparatingDirection SurfaceLook::separation_from(const Feature feature, const st
     else
       share *= 0.5;
   }
+  best.gap -= surface.offset;
   return best;
 }
 
@@ -403,7 +405,7 @@ std::optional<SurfacePlace> SurfaceLook::place_at(const Feature feature, const s
   const Foot foot = foot_on(feature, number);
   const double deepest = deepest_overlap * least_half_axis();
   const bool is_in_front = foot.normal.dot(body.position - surface.node[node]) > 0.;
-  if (!(foot.overlap > 0.) || foot.overlap > deepest || !is_in_front)
+  if (!(foot.overlap > 0.) || foot.overlap - surface.offset > deepest || !is_in_front)
     return {};
   return SurfacePlace{feature, number, index, foot.normal, foot.overlap, foot.arm};
 }

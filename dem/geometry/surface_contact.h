@@ -63,6 +63,7 @@ struct SurfaceView
 {
   const SurfaceTopology &topology;
   std::span<const Vec3> node; ///< places [m]
+  double offset = 0.;         ///< see Surface [m]
 };
 
 /// A surface as one body sees it; what was looked at is remembered.

@@ -129,6 +129,7 @@ void Surface::validate(const std::int32_t n_materials) const
     for (const Vec3 &value : *values)
       require(value.allFinite(), "place, velocity or force of a surface's node", value.sum(), "finite");
   }
+  require(offset >= 0. && std::isfinite(offset), "offset of a surface", offset, "zero or a positive number of metres");
   for (std::size_t f = 0; f < topology.n_faces(); ++f)
   {
     const Triangle &t = topology.triangle[f];

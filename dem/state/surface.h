@@ -36,7 +36,7 @@ struct Surface
   /// @param nodes places [m]; @param triangles anticlockwise as seen from the grains
   Surface(std::vector<Vec3> nodes, std::vector<Triangle> triangles);
 
-  SurfaceView view() const { return {topology, node}; }
+  SurfaceView view() const { return {topology, node, offset}; }
   std::size_t n_features() const { return topology.n_faces() + topology.n_edges() + topology.n_nodes(); }
   bool is_at_rest() const { return drift_velocity.empty(); } ///< over the step before
 
@@ -74,7 +74,10 @@ struct Surface
   std::vector<Vec3> node;           ///< places [m]
   std::vector<Vec3> velocity;       ///< of the drift to come; empty: stays at rest; may be set between steps [m/s]
   std::vector<Vec3> drift_velocity; ///< over the step before, which led to the present places; empty: at rest [m/s]
-  std::vector<Vec3> force;   ///< of the grains on the nodes at this step, where kept; see Simulation::node_forces() [N]
+  std::vector<Vec3> force; ///< of the grains on the nodes at this step, where kept; see Simulation::node_forces() [N]
+  /// Grains touch what lies this far in front of the triangles, around their edges and vertices, too: half of a sheet's
+  /// thickness where both of its sides are there [m], >= 0.
+  double offset = 0.;
   double motion = 0.;        ///< path that no node has exceeded since the start [m]
   double work = 0.;          ///< done by the surface on the grains since the start [J]
   std::int32_t material = 1; ///< of the simulation's table
@@ -91,6 +94,7 @@ struct Surface
     visit("velocity", self.velocity);
     visit("drift_velocity", self.drift_velocity);
     visit("force", self.force);
+    visit("offset", self.offset);
     visit("motion", self.motion);
     visit("work", self.work);
     visit("material", self.material);

@@ -78,18 +78,22 @@ struct GrainsAndBody
   SurfaceContact *contact = nullptr;
 
   GrainsAndBody(std::unique_ptr<dem::Simulation> simulation, std::unique_ptr<fe::MovingBody> moving,
-                const fe::FaceTriangles &faces)
+                const fe::FaceTriangles &faces, const double offset = 0.)
   {
     grains = &model.add(std::make_unique<GrainsMover>(std::move(simulation)));
     body = &model.add(std::make_unique<BodyMover>(std::move(moving), "block"));
     if (grains->simulation().surfaces.empty()) // else it was stored with the grains
-      grains->simulation().add_surface(surface_of(body->body(), faces));
+    {
+      dem::Surface surface = surface_of(body->body(), faces);
+      surface.offset = offset;
+      grains->simulation().add_surface(std::move(surface));
+    }
     contact = &model.add(std::make_unique<SurfaceContact>(*grains, *body, faces, 0));
   }
   GrainsAndBody(const dem::SimulationParameters &p, const dem::Particles &particles,
-                std::unique_ptr<fe::MovingBody> moving, const fe::FaceTriangles &faces)
+                std::unique_ptr<fe::MovingBody> moving, const fe::FaceTriangles &faces, const double offset = 0.)
       : GrainsAndBody(std::make_unique<dem::Simulation>(p, particles, std::vector<dem::PlaneWall>()), std::move(moving),
-                      faces)
+                      faces, offset)
   {
   }
 
@@ -488,6 +492,7 @@ fe::FaceTriangles both_sides_of(const fe::MembraneBody &body)
 TEST_CASE("a membrane turns a grain back on either side alike, and keeps the balances")
 {
   const Threads one(1);
+  const double offset = GENERATE(0., 0.15) * mm;
   std::vector<Vec3> ways[2];
   for (const int side : {0, 1})
   {
@@ -495,9 +500,10 @@ TEST_CASE("a membrane turns a grain back on either side alike, and keeps the bal
     auto body = sheet(true);
     const fe::FaceTriangles faces = both_sides_of(*body);
     dem::Particles grains;
-    grains.add({Vec3::Constant(mm), 1., 1.}, density, Vec3(0.3, 0.8, 1.01 * up) * mm, Quaternion::Identity());
+    grains.add({Vec3::Constant(mm), 1., 1.}, density, Vec3(0.3 * mm, 0.8 * mm, (1.01 * mm + offset) * up),
+               Quaternion::Identity());
     grains.velocity[0] = Vec3(0.02, 0., -0.3 * up);
-    GrainsAndBody s(grains_of(0.3, 0., 1e-6), grains, std::move(body), faces);
+    GrainsAndBody s(grains_of(0.3, 0., 1e-6), grains, std::move(body), faces, offset);
     s.model.compute_forces();
     s.model.kick(1e-6);
     const double energy = s.energy(), kinetic = s.grains->energy().kinetic;
@@ -514,8 +520,8 @@ TEST_CASE("a membrane turns a grain back on either side alike, and keeps the bal
       deepest = std::min(deepest, place[2]);
       ways[side].push_back(place);
     }
-    CAPTURE(side, deepest, most / kinetic);
-    CHECK(deepest < 0.8 * mm); // the sheet gives way
+    CAPTURE(offset, side, deepest, most / kinetic);
+    CHECK(deepest < 0.8 * mm + offset); // the sheet gives way
     CHECK(ways[side].back()[2] > 1.5 * mm);
     CHECK(most < 1e-3 * kinetic);
   }
@@ -530,7 +536,7 @@ TEST_CASE("a grain at a membrane's rim meets one rim, not one of either side")
   // The force is that of one edge, whichever rim it is and however the sheet lies: the normals of its two sides are
   // opposite but for rounding, which must not decide which way round the rim goes.
   const Threads one(1);
-  const double overlap = 1e-3 * mm;
+  const double overlap = 1e-3 * mm, offset = GENERATE(0., 0.15) * mm;
   double force = 0.;
   for (const double angle : {0., 0.3, 1.1, 2.5})
     for (int rim = 0; rim < 4; ++rim)
@@ -547,8 +553,9 @@ TEST_CASE("a grain at a membrane's rim meets one rim, not one of either side")
       const fe::FaceTriangles faces = both_sides_of(*body);
       dem::Particles grains;
       grains.add({Vec3::Constant(mm), 1., 1.}, density,
-                 (7. * mm - overlap) * outward + 0.8 * mm * turned.col(2).cross(outward), Quaternion::Identity());
-      GrainsAndBody s(grains_of(0., 0., 1e-6), grains, std::move(body), faces);
+                 (7. * mm + offset - overlap) * outward + 0.8 * mm * turned.col(2).cross(outward),
+                 Quaternion::Identity());
+      GrainsAndBody s(grains_of(0., 0., 1e-6), grains, std::move(body), faces, offset);
       s.model.compute_forces();
       const auto contacts = s.grains->simulation().contacts.touching_walls(s.grains->simulation().particles);
       REQUIRE(contacts.size() == 1);
@@ -558,6 +565,9 @@ TEST_CASE("a grain at a membrane's rim meets one rim, not one of either side")
       if (force == 0.)
         force = found.norm();
       CHECK((found - force * outward).norm() < 1e-9 * force);
+      dem::Surface other = s.grains->simulation().surfaces[0];
+      other.offset = -offset - 1e-9;
+      CHECK_THROWS_WITH(s.grains->simulation().add_surface(other), Catch::Contains("offset of a surface"));
     }
 }
 
