@@ -5,6 +5,7 @@
 #include "drivers/common/grain_parameters.h"
 #include "drivers/common/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bergamo::driver
@@ -144,7 +145,9 @@ std::string SiloParameters::orifice_name(const double width)
 bool SiloParameters::has_choi_orifice() const
 {
   constexpr double rounding = 1e-9;
-  return std::abs(orifice_widths.front() - 0.016) < rounding && std::abs(depth - 0.025) < rounding;
+  return std::abs(depth - 0.025) < rounding &&
+         std::any_of(orifice_widths.begin(), orifice_widths.end(),
+                     [](const double w) { return std::abs(w - 0.016) < rounding; });
 }
 
 } // namespace bergamo::driver

@@ -73,7 +73,7 @@ struct SiloParameters
   /// "16mm" of the orifice of 0.016 m.
   static std::string orifice_name(double width);
 
-  /// Whether orifice and silo's depth are those of Choi et al.
+  /// Whether an orifice and the silo's depth are those of Choi et al.
   bool has_choi_orifice() const;
 };
 
