@@ -28,28 +28,6 @@ void for_each_contact(const Particles &particles, const Contacts &contacts, cons
   }
 }
 
-/// Forces on the nodes of one contact: by the shape functions at the point of the feature straight below it; and what
-/// the force has as a moment about that point, half an overlap off, by the least forces on a face's nodes that have it.
-void add_node_forces(const Surface &surface, const FeatureOfSurface &f, const Vec3 &point, const Vec3 &force,
-                     std::vector<Vec3> &forces)
-{
-  const NodeShares shares = node_shares(surface, f.feature, f.number, point);
-  for (int k = 0; k < 3; ++k)
-    forces[shares.node[k]] += shares.share[k] * force;
-  const Triangle &nodes = surface.topology.triangle[surface.face_of(f)];
-  const Vec3 moment = (point - shares.of(surface.node)).cross(force);
-  const Vec3 middle = (surface.node[nodes[0]] + surface.node[nodes[1]] + surface.node[nodes[2]]) / 3.;
-  Mat3 inertia = Mat3::Zero(); // of unit masses at the nodes
-  for (const std::int32_t n : nodes)
-  {
-    const Vec3 arm = surface.node[n] - middle;
-    inertia += arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
-  }
-  const Vec3 turn = inertia.inverse() * moment;
-  for (const std::int32_t n : nodes)
-    forces[n] += turn.cross(surface.node[n] - middle);
-}
-
 } // namespace
 
 std::vector<SurfaceLoad> surface_loads(const Particles &particles, const Contacts &contacts,
@@ -76,7 +54,7 @@ std::vector<std::vector<Vec3>> node_forces(const Particles &particles, const Con
                    [&](const FeatureOfSurface &f, const Vec3 &point, const Vec3 &force)
                    {
                      if (is_wanted[f.surface])
-                       add_node_forces(surfaces[f.surface], f, point, force, forces[f.surface]);
+                       surfaces[f.surface].add_force(f, point, force, forces[f.surface]);
                    });
   return forces;
 }

@@ -143,6 +143,9 @@ int SurfaceLook::index_of(const Feature feature, const std::int32_t number)
   {
     const Vec3 &other = on_face(ends.right).foot.normal;
     end = std::atan2(-across.dot(other), first.dot(other));
+    constexpr double rounding = 1e-9; // of triangles back to back, which are a rim: the sign says nothing
+    if (end < rounding - M_PI)
+      end = M_PI;
   }
   double low = std::min(0., end), high = std::max(0., end), angle = 0.5 * (low + high);
   Foot foot{};

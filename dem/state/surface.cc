@@ -23,19 +23,40 @@ Vec3 Surface::velocity_at(const FeatureOfSurface &f, const Vec3 &point) const
   return shares.of(drift_velocity) + spin_of(f).cross(point - shares.of(node));
 }
 
+Surface::Plane Surface::plane_of(const Triangle &t) const
+{
+  const Vec3 a = node[t[1]] - node[t[0]], b = node[t[2]] - node[t[0]], area = a.cross(b);
+  return {area.normalized(), b.cross(area) / area.squaredNorm(), area.cross(a) / area.squaredNorm()};
+}
+
 /// Of the gradient of the velocity in the plane: what turns the normal, and the mean of what turns the plane in itself.
 Vec3 Surface::spin_of(const FeatureOfSurface &f) const
 {
   if (is_at_rest())
     return Vec3::Zero();
   const Triangle &t = topology.triangle[face_of(f)];
-  const Vec3 a = node[t[1]] - node[t[0]], b = node[t[2]] - node[t[0]], area = a.cross(b);
-  const Vec3 of_a = b.cross(area) / area.squaredNorm(),
-             of_b = area.cross(a) / area.squaredNorm(); // gradients of shares
+  const auto [normal, of_a, of_b] = plane_of(t);
   const Vec3 va = drift_velocity[t[1]] - drift_velocity[t[0]], vb = drift_velocity[t[2]] - drift_velocity[t[0]];
-  const Vec3 normal = area.normalized();
   const Vec3 of_normal = -(of_a * va.dot(normal) + of_b * vb.dot(normal)); // its rate
   return normal.cross(of_normal) + 0.5 * normal * normal.dot(of_a.cross(va) + of_b.cross(vb));
+}
+
+/// By the shares of the nodes, and the moment about the point straight below by the transpose of spin_of().
+void Surface::add_force(const FeatureOfSurface &f, const Vec3 &point, const Vec3 &force,
+                        const std::span<Vec3> forces) const
+{
+  const NodeShares shares = node_shares(*this, f.feature, f.number, point);
+  for (int k = 0; k < 3; ++k)
+    forces[shares.node[k]] += shares.share[k] * force;
+  const Triangle &t = topology.triangle[face_of(f)];
+  const auto [normal, of_a, of_b] = plane_of(t);
+  const Vec3 moment = (point - shares.of(node)).cross(force), tilting = normal.cross(moment);
+  const auto turned_by = [&](const Vec3 &gradient) -> Vec3
+  { return tilting.dot(gradient) * normal + 0.5 * moment.dot(normal) * normal.cross(gradient); };
+  const Vec3 on_second = turned_by(of_a), on_third = turned_by(of_b);
+  forces[t[0]] -= on_second + on_third;
+  forces[t[1]] += on_second;
+  forces[t[2]] += on_third;
 }
 
 Vec3 Surface::direction_of_edge(const std::int32_t e) const

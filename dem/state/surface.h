@@ -45,6 +45,11 @@ struct Surface
   Vec3 velocity_at(const FeatureOfSurface &feature, const Vec3 &point) const; ///< at a point on or above it [m]; [m/s]
   Vec3 spin_of(const FeatureOfSurface &feature) const; ///< of the feature's face, or one of its faces [1/s]
   /// @}
+
+  /// Adds a force at a point on or above a feature to those on the nodes, with its moment, so that these do the work of
+  /// the force along velocity_at() however the nodes move. @param[in,out] forces by node [N]
+  void add_force(const FeatureOfSurface &feature, const Vec3 &point, const Vec3 &force, std::span<Vec3> forces) const;
+
   Vec3 direction_of_edge(std::int32_t edge) const;             ///< unit vector
   std::int32_t face_of(const FeatureOfSurface &feature) const; ///< the feature itself, or a face that has it
 
@@ -99,6 +104,12 @@ struct Surface
   }
 
 private:
+  /// Of a triangle: its normal, and the gradients of the shares of its second and third node [1/m].
+  struct Plane
+  {
+    Vec3 normal, of_second, of_third;
+  };
+  Plane plane_of(const Triangle &triangle) const;
   std::vector<std::int32_t> numbers() const;
   void restore(const std::vector<std::int32_t> &nodes_of_triangles);
 

@@ -79,17 +79,23 @@ Surface membrane_surface(const dealii::DoFHandler<2, 3> &dof_handler)
 std::vector<std::array<unsigned int, 3>> triangles(const Surface &surface)
 {
   std::vector<std::array<unsigned int, 3>> result;
-  const int n = surface.degree + 1;
   for (std::size_t k = 0; k < surface.size(); ++k)
-    for (int j = 0; j + 1 < n; ++j)
-      for (int i = 0; i + 1 < n; ++i)
-      {
-        const std::span<const unsigned int> face = surface.face(k);
-        const unsigned int a = face[n * j + i], b = face[n * j + i + 1], c = face[n * (j + 1) + i + 1],
-                           d = face[n * (j + 1) + i];
-        result.push_back({a, b, c});
-        result.push_back({a, c, d});
-      }
+    for (const auto &[a, b, c] : grid_triangles(surface.degree))
+      result.push_back({surface.face(k)[a], surface.face(k)[b], surface.face(k)[c]});
+  return result;
+}
+
+std::vector<std::array<unsigned int, 3>> grid_triangles(const unsigned int n_squares)
+{
+  std::vector<std::array<unsigned int, 3>> result;
+  const unsigned int n = n_squares + 1;
+  for (unsigned int j = 0; j < n_squares; ++j)
+    for (unsigned int i = 0; i < n_squares; ++i)
+    {
+      const unsigned int a = n * j + i, b = a + 1, c = b + n, d = a + n;
+      result.push_back({a, b, c});
+      result.push_back({a, c, d});
+    }
   return result;
 }
 

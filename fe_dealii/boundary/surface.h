@@ -43,4 +43,8 @@ Surface membrane_surface(const dealii::DoFHandler<2, 3> &dof_handler);
 /// each of 9 (the analogue of Wellmann's fig. 4.1).
 std::vector<std::array<unsigned int, 3>> triangles(const Surface &surface);
 
+/// Two triangles for each square of a grid of n × n, by the numbers of its (n + 1)² points, x fastest; counterclockwise
+/// with x to the right and y up.
+std::vector<std::array<unsigned int, 3>> grid_triangles(unsigned int n_squares);
+
 } // namespace bergamo::fe

@@ -1,4 +1,5 @@
 #include "dem/core/error.h"
+#include "fe_dealii/boundary/face_triangles.h"
 #include "fe_dealii/boundary/surface_load.h"
 #include "fe_dealii/explicit_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
@@ -43,6 +44,90 @@ Vector sum_of(const std::vector<double> &force)
 }
 
 } // namespace
+
+TEST_CASE("triangles on faces close where faces meet, and follow curved ones as they get finer", "[fe]")
+{
+  for (const unsigned int degree : {1u, 2u})
+  {
+    const ExplicitBody body = box(degree, 0.2);
+    std::vector<Surface> sides;
+    for (unsigned int id = 0; id < 6; ++id)
+      sides.push_back(boundary_surface(body.dof_handler(), id));
+    std::vector<double> bent(3 * body.n_nodes()); // displacement, which twists faces of 4 nodes and bends those of 9
+    for (std::size_t node = 0; node < body.n_nodes(); ++node)
+    {
+      const auto &x = body.node_position()[node];
+      bent[3 * node + 2] = 0.1 * x[0] * x[0] + 0.2 * x[0] * x[1];
+    }
+    double exact = 0;
+    for (const Surface &side : sides)
+      exact += SurfaceLoad(side, body.node_position()).volume(bent);
+    double missed[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      const FaceTriangles faces = divide_faces(sides, degree << k);
+      std::vector<Vector> x;
+      for (std::size_t corner = 0; corner < faces.corners.size(); ++corner)
+      {
+        double sum = 0;
+        x.push_back({});
+        for (const auto &[node, value] : faces.corners[corner])
+        {
+          sum += value;
+          for (int i = 0; i < 3; ++i)
+            x.back()[i] += value * (body.node_position()[node][i] + bent[3 * std::size_t(node) + i]);
+        }
+        REQUIRE(sum == Approx(1).epsilon(1e-15));
+        REQUIRE((k > 0 || faces.corners[corner].size() == 1)); // these are the nodes
+      }
+      std::map<std::pair<unsigned int, unsigned int>, int> edges;
+      double volume = 0;
+      for (const auto &[a, b, c] : faces.triangles)
+      {
+        for (int i = 0; i < 3; ++i)
+          volume += x[a][i] * (x[b][(i + 1) % 3] * x[c][(i + 2) % 3] - x[b][(i + 2) % 3] * x[c][(i + 1) % 3]) / 6;
+        for (const auto &edge : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+          ++edges[edge];
+      }
+      for (const auto &[edge, count] : edges)
+      {
+        REQUIRE(count == 1);
+        REQUIRE(edges.count({edge.second, edge.first}) == 1);
+      }
+      missed[k] = std::abs(volume / exact - 1);
+    }
+    CAPTURE(degree, missed[0], missed[1], missed[2]);
+    CHECK(missed[1] < 0.3 * missed[0]); // of second order
+    CHECK(missed[2] < 0.3 * missed[1]);
+  }
+  CHECK_THROWS_WITH(divide_faces({}, 0), Catch::Contains("number of squares"));
+}
+
+TEST_CASE("triangles on both sides of a sheet close at its rim", "[fe]")
+{
+  // Two squares beside one another, of which all nodes lie on the rim.
+  const Surface sheet{1, {0, 1, 2, 3, 1, 4, 3, 5}, {0, 1}};
+  const FaceTriangles front = divide_faces({&sheet, 1}, 1), both = both_sides(front);
+  CHECK(front.triangles.size() == 4);
+  CHECK(front.corners.size() == 6);
+  CHECK(both.corners.size() == 6 + 2 * 3); // the middles of the three sides inside, on the front and on the back
+  std::map<std::pair<unsigned int, unsigned int>, int> edges;
+  for (const auto &[a, b, c] : both.triangles)
+    for (const auto &edge : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+      ++edges[edge];
+  for (const auto &[edge, count] : edges)
+  {
+    CHECK(count == 1);
+    CHECK(edges.count({edge.second, edge.first}) == 1);
+  }
+  for (std::size_t corner = 0; corner < both.corners.size(); ++corner)
+  {
+    double sum = 0;
+    for (const auto &[node, value] : both.corners[corner])
+      sum += value;
+    CHECK(sum == 1);
+  }
+}
 
 TEST_CASE("a surface's triangles close, point outwards and have its area", "[fe]")
 {

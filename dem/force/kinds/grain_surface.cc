@@ -22,7 +22,10 @@ FeatureMotion<double> motion_of(const std::int32_t grain, const std::int32_t fea
   const FeatureOfSurface f = feature_of(scene.surfaces, feature);
   const Surface &surface = scene.surfaces[f.surface];
   FeatureMotion<double> motion;
-  motion.velocity = surface.velocity_at(f, p.position[grain] + point) - p.drift_velocity[grain];
+  const Vec3 place = p.position[grain] + point, velocity = p.drift_velocity[grain];
+  motion.velocity = surface.velocity_at(f, place) - velocity;
+  if (!surface.is_at_rest()) // what touched halfway has gone on with the surface since, by half of the slip
+    motion.velocity = surface.velocity_at(f, place + 0.5 * scene.time_step * motion.velocity) - velocity;
   motion.spin = p.angular_velocity[grain];
   motion.time_step = scene.time_step;
   motion.feature_spin = surface.spin_of(f);
