@@ -43,8 +43,7 @@ std::unique_ptr<fe::ExplicitBody> make_block(const BlockParameters &p, const Vec
 {
   const Vec3 end = corner + p.edges;
   Mesh box, mesh;
-  fe::make_box(
-      {{corner[0], corner[1], corner[2]}, {end[0], end[1], end[2]}, {p.n_along, p.n_across, p.n_high}}, box);
+  fe::make_box({{corner[0], corner[1], corner[2]}, {end[0], end[1], end[2]}, {p.n_along, p.n_across, p.n_high}}, box);
   dealii::GridGenerator::create_triangulation_with_removed_cells(box, cells_of_notch(p, corner, box), mesh);
   const double layer = p.edges[2] / p.n_high;
   for (const auto &cell : mesh.active_cell_iterators())

@@ -20,11 +20,11 @@ public:
   void visit(StateVisitor &visit);
 
 private:
-  double n_held = 0., n_pulled = 0.; // samples under all of the pressure; and at full speed
-  double carried = 0.;               // sum of the contacts' vertical force over weight and pressure
-  double horizontal = 0., vertical = 0.; // sums of the contacts' forces while it is pulled [N]
-  double pulling = 0., mobilized = 0.;   // sums of the pulling force [N], and of the friction that is used up
-  double front = 0.;                     // sum of the pressure on the foremost strip [Pa]
+  double n_held = 0., n_pulled = 0.;            // samples under all of the pressure; and at full speed
+  double carried = 0.;                          // sum of the contacts' vertical force over weight and pressure
+  double horizontal = 0., vertical = 0.;        // sums of the contacts' forces while it is pulled [N]
+  double pulling = 0., mobilized = 0.;          // sums of the pulling force [N], and of the friction that is used up
+  double front = 0.;                            // sum of the pressure on the foremost strip [Pa]
   double largest_front = 0., largest_face = 0.; // [Pa]
 };
 

@@ -75,8 +75,8 @@ void BlockParameters::validate() const
     reject("Block/notch elements along is ", notch_along, " of ", n_along,
            " (Block/elements along): the groove lies in the middle; leave as many elements before it as behind it");
   if (notch_high + top_layers > n_high)
-    reject("Block/notch elements high is ", notch_high, ", of ", n_high,
-           " (Block/elements high) less the top layers, ", top_layers, ": the groove ends in the rubber; make it lower");
+    reject("Block/notch elements high is ", notch_high, ", of ", n_high, " (Block/elements high) less the top layers, ",
+           top_layers, ": the groove ends in the rubber; make it lower");
 }
 
 void SandParameters::declare(ParameterFile &file)
@@ -113,6 +113,9 @@ void RubberBlockParameters::declare(ParameterFile &file)
   file.add("Grains", "box friction", simulation.with_walls().friction, "the same between grains and the rigid box",
            Range::non_negative());
   file.add("Grains", "block friction", block_friction, "the same between grains and block", Range::non_negative());
+  file.add("Grains", "block contact modulus", contact_modulus,
+           "Young's modulus of the block's skin in Hertz's law; grains sink into one as soft as rubber [Pa]",
+           Range::positive());
   file.add("Grains", "restitution", restitution, "of two mean grains at 1 m/s: sets the viscoelastic law's A",
            Range::between(0.1, 1));
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
@@ -127,7 +130,9 @@ void RubberBlockParameters::declare(ParameterFile &file)
   file.add("Pull", "offset", start_offset, "of the block from the rear of the box, before the pull [m]",
            Range::positive());
   file.add("Pull", "time step", simulation.time_step, "while the block is there [s]", Range::positive());
-  output.declare(file, "grains, block and its surface are");
+  output.declare(file, "block and its surface are");
+  file.add("Output", "grain pictures", n_grain_pictures,
+           "times at which grains are written for ParaView, about 20 kB a grain", Range::between(2, 10000));
 }
 
 void RubberBlockParameters::validate() const
@@ -164,7 +169,7 @@ dem::SimulationParameters RubberBlockParameters::pulling() const
   p.wall() = p.grain();
   p.gravity = {0., 0., -gravity};
   const fe::ElasticParameters &rubber = block.rubber.elastic;
-  p.materials.add({rubber.young_modulus, rubber.poisson_ratio, rubber.density});
+  p.materials.add({contact_modulus, rubber.poisson_ratio, rubber.density});
   p.materials.between(dem::grain_material, block_material).friction = block_friction;
   p.set_damping(simulation.between_grains().damping_ratio, relaxation_time_of(*this));
   return p;

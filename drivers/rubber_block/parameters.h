@@ -34,14 +34,14 @@ struct BlockParameters
 /// How the sand is made: packed, and settled under a weight of its own.
 struct SandParameters
 {
-  Vec3 box{0.075, 0.02, 0.0132}; ///< inner edges of the rigid box; upright: of the loose packing [m]
+  Vec3 box{0.075, 0.02, 0.01425}; ///< inner edges of the rigid box; upright: of the loose packing [m]
   dem::GrainDistribution distribution;
   double solid_fraction = 0.5; ///< of the loose packing
   std::uint64_t seed = 1;
-  double settling_gravity = 300.; ///< [m/s²]
-  double settling_time = 6e-3;    ///< [s]
-  double settling_step = 2e-7;    ///< [s]
-  double settling_damping = 0.9;  ///< share of critical damping
+  double settling_gravity = 1000.; ///< [m/s²]
+  double settling_time = 4e-3;     ///< [s]
+  double settling_step = 2e-7;     ///< [s]
+  double settling_damping = 0.9;   ///< share of critical damping
 
   void declare(ParameterFile &file);
 };
@@ -56,6 +56,7 @@ struct RubberBlockParameters
   dem::SimulationParameters simulation; ///< of the pull, without the block's material
   double restitution = 0.96;            ///< of two mean grains at 1 m/s
   double block_friction = 1.;           ///< between grains and block
+  double contact_modulus = 1e9;         ///< of the block's skin in Hertz's law [Pa]
 
   double gravity = 9.81;        ///< [m/s²]
   double pressure = 250e3;      ///< on the block's top [Pa]
@@ -65,6 +66,7 @@ struct RubberBlockParameters
   double start_time = 0.2e-3;   ///< over which it grows [s]
   double pull_time = 4.8e-3;    ///< from its begin on [s]
   double start_offset = 0.003;  ///< of the block from the box's rear [m]
+  unsigned int n_grain_pictures = 2;
   OutputParameters output;
 
   /// Binds every parameter to its name in the parameter file.

@@ -76,7 +76,8 @@ double Pull::work() const
 
 StepShares Pull::shares() const
 {
-  const double of_grains = (sum_of(sand().times) - seconds_of_settling) / seconds, of_block = block->seconds() / seconds;
+  const double of_grains = (sum_of(sand().times) - seconds_of_settling) / seconds,
+               of_block = block->seconds() / seconds;
   return {of_grains, of_block, 1. - of_grains - of_block};
 }
 

@@ -20,9 +20,9 @@ namespace
 /// Of the walls that box_walls() gives.
 std::int32_t wall_facing(const std::vector<dem::PlaneWall> &walls, const Vec3 &normal)
 {
-  return static_cast<std::int32_t>(std::find_if(walls.begin(), walls.end(), [&](const dem::PlaneWall &wall)
-                                                { return wall.normal == normal; }) -
-                                   walls.begin());
+  return static_cast<std::int32_t>(
+      std::find_if(walls.begin(), walls.end(), [&](const dem::PlaneWall &wall) { return wall.normal == normal; }) -
+      walls.begin());
 }
 
 double mean_speed_of(const dem::Particles &grains)
@@ -53,7 +53,10 @@ double top_of(const dem::Particles &grains)
 {
   double top = 0.;
   for (std::size_t i = 0; i < grains.size(); ++i)
-    top = std::max(top, grains.position[i][2] + support(dem::make_pose(grains.parts.shape[i], grains.position[i], grains.orientation[i]), Vec3::UnitZ()).height);
+    top = std::max(top, grains.position[i][2] +
+                            support(dem::make_pose(grains.parts.shape[i], grains.position[i], grains.orientation[i]),
+                                    Vec3::UnitZ())
+                                .height);
   return top;
 }
 
@@ -71,8 +74,7 @@ SettledSand end_settling(dem::Simulation &sand, const RubberBlockParameters &p)
   SettledSand settled;
   const dem::Particles &grains = sand.particles;
   settled.height = top_of(grains);
-  settled.solid_fraction =
-      dem::solid_fraction(grains, p.sand.box[0] * p.sand.box[1] * settled.height);
+  settled.solid_fraction = dem::solid_fraction(grains, p.sand.box[0] * p.sand.box[1] * settled.height);
   settled.coordination_number = dem::mean_coordination(sand.contacts, grains.size());
   const double weight = p.sand.settling_gravity * std::accumulate(grains.mass.begin(), grains.mass.end(), 0.);
   settled.floor_share = -sand.walls[wall_facing(sand.walls, Vec3::UnitZ())].force[2] / weight;

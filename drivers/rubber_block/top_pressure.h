@@ -24,9 +24,9 @@ public:
   double stable_step() override { return std::numeric_limits<double>::infinity(); }
 
   double pressure() const { return pressure_; }
-  double force() const { return pressure_ * area_; }   ///< downwards [N]
-  double sinking() const { return volume_ / area_; }   ///< of the boundary, mean [m]
-  double work() const { return work_; }                ///< done on the body since the start, trapezoidal [J]
+  double force() const { return pressure_ * area_; } ///< downwards [N]
+  double sinking() const { return volume_ / area_; } ///< of the boundary, mean [m]
+  double work() const { return work_; }              ///< done on the body since the start, trapezoidal [J]
 
   template <class Visit>
   void visit(Visit &visit)
