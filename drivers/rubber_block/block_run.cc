@@ -61,6 +61,8 @@ bool BlockRun::settle()
     return true;
   if (!sand)
     sand = pack_sand(parameters);
+  if (!sand)
+    return false;
   const std::int64_t n_steps = parameters.n_settling_steps();
   Stage stage = run.even_stage("settling", n_steps, parameters.sand.settling_step);
   stage.n_particles = static_cast<std::int64_t>(sand->particles.size());

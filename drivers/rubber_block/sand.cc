@@ -42,7 +42,9 @@ std::unique_ptr<dem::Simulation> pack_sand(const RubberBlockParameters &p)
   packing.density = p.simulation.grain().density;
   packing.tightening.is_stopped = interrupted;
   dem::PackedGrains packed = dem::pack_grains(p.sand.distribution, p.box(), packing, p.sand.seed);
-  if (!packed.report.has_reached_target && !interrupted())
+  if (interrupted()) // grains are too small
+    return nullptr;
+  if (!packed.report.has_reached_target)
     throw RunError("the geometric packing got stuck at a solid fraction of " +
                    std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +
                    ": choose a smaller Sand/solid fraction");

@@ -9,9 +9,8 @@
 namespace bergamo::driver
 {
 
-/// Grains between the six walls of the box, packed without contacts (Wellmann 3.4.4). The user may interrupt it, which
-/// leaves grains that are too small. @throws ConfigError for a box that is too small, RunError for a packing that gets
-/// stuck
+/// Grains between the six walls of the box, packed without contacts (Wellmann 3.4.4); nothing where the user interrupts
+/// it. @throws ConfigError for a box that is too small, RunError for a packing that gets stuck
 std::unique_ptr<dem::Simulation> pack_sand(const RubberBlockParameters &parameters);
 
 /// The highest point of any grain [m].
