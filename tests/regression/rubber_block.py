@@ -22,7 +22,7 @@ PRESSURE, AREA = 250e3, 6e-3 * 4e-3
 # Fewer and larger grains, for what needs no sand: two layers.
 COARSE = ["Sand/mean half-axes=0.7e-3, 0.6e-3, 0.5e-3", "Sand/smallest half-axis=0.4e-3", "Sand/largest half-axis=0.9e-3",
           "Sand/box=0.014, 0.009, 0.0055", "Sand/Settling/time=0.6e-3"]
-SHORT = COARSE + ["Pull/loading time=0.1e-3", "Pull/holding time=0.05e-3", "Pull/start time=0.02e-3", "Pull/time=0.1e-3"]
+SHORT = COARSE + ["Pull/loading time=0.1e-3", "Pull/holding time=0.05e-3", "Pull/start time=0.02e-3", "Pull/time=0.1e-3", "Pull/time step=1.6e-7"]
 OF_THE_CLOCK = ("wall", "particle", "share", "core")  # how figures begin that are no results
 
 
@@ -50,7 +50,7 @@ class Results(Case):
 
     def check_balance(self, figures, rows):
         """What pull and pressure put in is in motion, springs and losses."""
-        self.assertLess(figures["energy_residual"], 2e-3)
+        self.assertLess(figures["energy_residual"], 1e-3)
         last = rows[-1]
         put_in = last["work_pressure_J"] + last["work_pull_J"]
         self.assertGreater(last["energy_friction_loss_J"], 0.3 * put_in)
@@ -65,19 +65,19 @@ class Results(Case):
         self.assertLess(figures["friction_coefficient"], 2 * FRICTION)
 
     def check_motion(self, rows):
-        """The ground carries the pressure: some metres per second of the block, a tenth of a gram, over half a
-        millisecond, are a tenth of it. The top goes as fast as it is told."""
+        """The ground carries the pressure: some metres per second of the block, a tenth of a gram, over 0.4 ms, are
+        a tenth of it. The top goes as fast as it is told."""
         self.assertEqual(rows[0]["top_pressure_Pa"], 0)
         self.assertEqual(rows[-1]["top_pressure_Pa"], PRESSURE)
-        self.assertAlmostEqual(rows[-1]["position_m"], 30 / 3.6 * (0.35e-3 - 0.5 * 0.05e-3), delta=1e-6)
-        carried = [row["contact_force_z_N"] for row in rows if row["time_s"] > 0.4e-3]
+        self.assertAlmostEqual(rows[-1]["position_m"], 30 / 3.6 * (0.25e-3 - 0.5 * 0.05e-3), delta=1e-6)
+        carried = [row["contact_force_z_N"] for row in rows if row["time_s"] > 0.3e-3]
         self.assertAlmostEqual(sum(carried) / len(carried) / (PRESSURE * AREA), 1, delta=0.15)
 
     def check_strips(self, rows):
         """Pressures over the strips add up to the normal forces, about the vertical force."""
         strips = self.table("run", "pressure.csv")
         self.assertEqual([row["time_s"] for row in strips], [row["time_s"] for row in rows])
-        held = [(s, r) for s, r in zip(strips, rows) if 0.4e-3 < r["time_s"] < 0.6e-3]
+        held = [(s, r) for s, r in zip(strips, rows) if 0.3e-3 < r["time_s"] < 0.45e-3]
         for pressures, row in held:
             force = sum(value for key, value in pressures.items() if key.startswith("strip")) * AREA / 5
             self.assertAlmostEqual(force / row["contact_force_z_N"], 1, delta=0.2)
@@ -99,12 +99,12 @@ class Results(Case):
 
 class Restart(Case):
     def test_kill(self):
-        """Killed while the sand settles, and stopped by Ctrl-C while the block is there: the same to the last bit."""
+        """Killed while the sand settles, and stopped by Ctrl-C while it is pulled: the same to the last bit."""
         whole = self.figures("whole", SHORT)
         self.assertGreater(whole["mean_vertical_force_N"], 1)  # it has come to the sand
         parts = self.tmp / "parts"
         options = SNAPSHOTS_BY_STEPS
-        for rows, send in ((None, signal.SIGKILL), (10, signal.SIGINT)):
+        for rows, send in ((None, signal.SIGKILL), (40, signal.SIGINT)):
             has_snapshot = renewal(parts / "snapshot.h5")
             stop_when(lambda: has_snapshot() and (rows is None or n_rows(parts / "history.csv") > rows),
                       self.command(parts, SHORT, *options), send)
