@@ -52,7 +52,8 @@ void BlockRun::visit(StateVisitor &visit)
 int BlockRun::go()
 {
   run.open();
-  return settle() && pull_block() ? run.finish(summary(), {"rubber_block/plot.py"}) : run.stop();
+  return settle() && pull_block() ? run.finish(summary(), {"rubber_block/plot.py", "rubber_block/plot_pressure.py"})
+                                  : run.stop();
 }
 
 bool BlockRun::settle()

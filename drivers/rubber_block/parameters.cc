@@ -53,7 +53,10 @@ BlockParameters::BlockParameters()
 void BlockParameters::declare(ParameterFile &file)
 {
   file.add("Block", "edges", {edges.data(), 3}, "along the pull, across it, upright [m]", Range::positive());
-  file.add("Block", "elements along", n_along, "of 27 nodes each", Range::between(3, 200));
+  file.add(
+      "Block", "element", element, "quadratic: 27 nodes; bending: 8 nodes that bend; plain: 8 nodes",
+      {{"quadratic", BlockElement::quadratic}, {"bending", BlockElement::bending}, {"plain", BlockElement::plain}});
+  file.add("Block", "elements along", n_along, "", Range::between(3, 200));
   file.add("Block", "elements across", n_across, "", Range::between(1, 200));
   file.add("Block", "elements high", n_high, "", Range::between(2, 200));
   file.add("Block", "notch elements along", notch_along, "length of the groove across the middle of the bottom",

@@ -12,12 +12,20 @@
 namespace bergamo::driver
 {
 
+enum class BlockElement
+{
+  quadratic, ///< 27 nodes
+  bending,   ///< 8 nodes that bend
+  plain      ///< 8 nodes, too stiff in bending
+};
+
 /// A block of elements with a groove across its middle, from the bottom up, and a stiffer layer on its top.
 struct BlockParameters
 {
   BlockParameters();
 
   Vec3 edges{0.024, 0.012, 0.0096}; ///< along the pull, across it, upright [m]
+  BlockElement element = BlockElement::quadratic;
   unsigned int n_along = 20, n_across = 10, n_high = 8;
   unsigned int notch_along = 4, notch_high = 3; ///< of the groove, in elements
   unsigned int top_layers = 2;                  ///< of elements
