@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots")
 import run_data
 
 N_TIMES = 4
+HIGHEST = 5  # pressure over top pressure, of the colours
 
 
 def read_series(folder):
@@ -79,7 +80,7 @@ def main():
     for row, (time, path) in zip(panels, series):
         corners, pressure = read_surface(path)
         for axes, axis in zip(row, (1, 2)):
-            faces = add_view(axes, corners, pressure / top, axis, 10)
+            faces = add_view(axes, corners, pressure / top, axis, HIGHEST)
             axes.set_title(f"{time * 1e3:.2f} ms, from {'the side' if axis == 1 else 'below'}", fontsize=9)
             axes.set_xlabel("x in mm", fontsize=9)
     figure.colorbar(faces, ax=panels, label="pressure over top pressure", extend="max")
