@@ -28,8 +28,8 @@ public:
   /// written
   void add(double time, const std::vector<Picture> &models);
 
-  /// The times of the files that are there.
-  void visit(StateVisitor &visit) { visit("picture_times", times); }
+  /// The times of the files that are there. @param name in the snapshot, one for each series of a run
+  void visit(StateVisitor &visit, const std::string &name = "picture_times") { visit(name, times); }
 
 private:
   std::filesystem::path folder;
