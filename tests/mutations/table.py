@@ -350,6 +350,7 @@ MUTATIONS = [
                ("discharge_record.cc", "last_passage = time;", "", "what is below the orifice*"),
                ("discharge_record.cc", "visit(\"discharge/masses\", masses_);", "", "a record goes on*"),
                ("measured_columns.cc", "s < loads.size() ?", "s <= loads.size() ?", "each surface has*")),
+    *in_folder(
         "drivers/rubber_block", "rubber_block",
         ("block.cc", " && cell->center()[2] < height", "", "Results.test_block"),
         ("block_run.cc", "residual.visit(visit);", "", "Restart"),
