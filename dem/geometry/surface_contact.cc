@@ -232,8 +232,8 @@ bool SurfaceLook::is_in_cone(const std::int32_t node, const Foot &foot) const
                      });
 }
 
-/// Whether all places that leave a vertex none are too deep to be touched. Two more places, of index 1 and -1, are
-/// there then if a body that is slender or pointed touches it beside them.
+/// Whether all places that leave a vertex none are too deep to be touched, and it is not plainly apart. Two more
+/// places, of index 1 and -1, are there then if a body that is slender or pointed touches it beside them.
 bool SurfaceLook::is_beside_deep_places(const std::int32_t node)
 {
   const SurfaceTopology &t = surface.topology;
@@ -242,6 +242,9 @@ bool SurfaceLook::is_beside_deep_places(const std::int32_t node)
     if (is_inside(f, t.edge_of[f][place]) && is_inside(f, t.edge_of[f][(place + 2) % 3]) &&
         on_face(f).foot.overlap <= deepest)
       return false;
+  const Vec3 line = body.position - surface.node[node];
+  if (!(foot_against(line.normalized(), surface.node[node]).overlap > 0.))
+    return false; // apart, as most are
   for (const std::int32_t e : t.edges_of(node))
     if (index_of_line(e) != 0 && is_beyond(e, node) && on_edge(e).foot.overlap <= deepest)
       return false;
