@@ -1,10 +1,10 @@
 #include "drivers/hourglass/sand_flow.h"
 
-#include "dem/core/error.h"
 #include "dem/io/vtu.h"
 #include "dem/measure/beverloo.h"
 #include "dem/measure/inertial_number.h"
 #include "drivers/common/interrupt.h"
+#include "drivers/common/packing_target.h"
 #include "drivers/common/run/model_pictures.h"
 #include "drivers/common/run/visit_models.h"
 
@@ -34,10 +34,7 @@ bool SandFlow::begin()
       chamber_between(parameters.glass, parameters.fill_bottom, parameters.fill_height), packing, parameters.seed);
   if (interrupted())
     return false;
-  if (!packed.report.has_reached_target)
-    throw RunError("the geometric packing got stuck at a solid fraction of " +
-                   std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +
-                   ": choose a smaller Filling/solid fraction");
+  require_target(packed, packing.solid_fraction, "Filling/solid fraction");
   simulation = std::make_unique<dem::Simulation>(parameters.simulation_parameters(), std::move(packed.particles),
                                                  std::vector<dem::PlaneWall>());
   simulation->add_surface(std::move(glass));

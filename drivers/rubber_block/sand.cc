@@ -1,12 +1,12 @@
 #include "drivers/rubber_block/sand.h"
 
-#include "dem/core/error.h"
 #include "dem/geometry/contact_geometry.h"
 #include "dem/loading/compression.h"
 #include "dem/measure/coordination.h"
 #include "dem/measure/solid_fraction.h"
 #include "dem/packing/pack_grains.h"
 #include "drivers/common/interrupt.h"
+#include "drivers/common/packing_target.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,10 +44,7 @@ std::unique_ptr<dem::Simulation> pack_sand(const RubberBlockParameters &p)
   dem::PackedGrains packed = dem::pack_grains(p.sand.distribution, p.box(), packing, p.sand.seed);
   if (interrupted()) // grains are too small
     return nullptr;
-  if (!packed.report.has_reached_target)
-    throw RunError("the geometric packing got stuck at a solid fraction of " +
-                   std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +
-                   ": choose a smaller Sand/solid fraction");
+  require_target(packed, packing.solid_fraction, "Sand/solid fraction");
   return std::make_unique<dem::Simulation>(p.settling(), std::move(packed.particles), dem::box_walls(p.box()));
 }
 

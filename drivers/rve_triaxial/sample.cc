@@ -6,6 +6,7 @@
 #include "dem/measure/contact_list.h"
 #include "dem/measure/solid_fraction.h"
 #include "drivers/common/interrupt.h"
+#include "drivers/common/packing_target.h"
 #include "drivers/common/run/measured_columns.h"
 #include "drivers/common/run/step_count.h"
 #include "drivers/common/run/visit_models.h"
@@ -120,10 +121,7 @@ bool SampleRun::begin()
   dem::PackedGrains packed = parameters.sizes.pack(space, packing, settings.seed);
   if (interrupted())
     return false;
-  if (!packed.report.has_reached_target)
-    throw RunError("the geometric packing got stuck at a solid fraction of " +
-                   std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +
-                   ": choose a smaller Packing/solid fraction");
+  require_target(packed, packing.solid_fraction, "Packing/solid fraction");
   packed.particles.cell = dem::PeriodicCell(edges);
   dem::SimulationParameters p = parameters.simulation;
   p.between_grains().friction = settings.generation_friction;

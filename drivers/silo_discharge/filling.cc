@@ -3,6 +3,7 @@
 #include "dem/core/error.h"
 #include "dem/measure/inertial_number.h"
 #include "drivers/common/interrupt.h"
+#include "drivers/common/packing_target.h"
 #include "drivers/common/run/measured_columns.h"
 #include "drivers/common/run/visit_models.h"
 #include "drivers/silo_discharge/silo_surfaces.h"
@@ -50,10 +51,7 @@ bool Filling::begin()
                                                    packing, parameters.seed);
   if (interrupted())
     return false;
-  if (!packed.report.has_reached_target)
-    throw RunError("the geometric packing got stuck at a solid fraction of " +
-                   std::to_string(packed.report.solid_fraction) + " of " + std::to_string(packing.solid_fraction) +
-                   ": choose a smaller Filling/solid fraction");
+  require_target(packed, packing.solid_fraction, "Filling/solid fraction");
   simulation = std::make_unique<dem::Simulation>(parameters.filling_simulation(), std::move(packed.particles),
                                                  std::vector<dem::PlaneWall>());
   for (dem::Surface &surface : silo.surfaces)

@@ -187,15 +187,6 @@ class Restart(Case):
 
 
 class BadInput(Case):
-    def assert_refused(self, settings, *words, status=2, writes=False):
-        out = self.tmp / "refused"
-        result = self.run_driver(out, settings)
-        self.assertEqual(result.returncode, status, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
-        self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
-        self.assertEqual(out.exists(), writes)
-
     def test_parameters(self):
         self.assert_refused(["Track/facets="], "Track/facets has no number")
         self.assert_refused(["Track/facets=10.5"], "Track/facets", "10.5", "whole")

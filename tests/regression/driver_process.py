@@ -80,3 +80,13 @@ class DriverCase(unittest.TestCase):
 
     def check_success(self, result):
         self.assertEqual(result.returncode, 0, result.stderr)
+
+    def assert_refused(self, settings, *words, status=2, writes=False):
+        """One message that has all words, and no folder unless the run had begun."""
+        out = self.tmp / "refused"
+        result = self.run_driver(out, settings)
+        self.assertEqual(result.returncode, status, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
+        self.assertEqual(out.exists(), writes)

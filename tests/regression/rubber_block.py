@@ -127,11 +127,7 @@ class BadInput(Case):
                                ("Pull/time step=1e-5", ("Pull/time step is 1e-05", "below")),
                                ("Block/Rubber/second share=2", ("Block/Rubber/second share",)),
                                ("Block/Top layer/Poisson's ratio=0.5", ("Poisson",))):
-            result = self.run_driver(self.tmp / "refused", [setting])
-            self.assertEqual(result.returncode, 2, result.stderr)
-            for word in words:
-                self.assertIn(word, result.stderr)
-            self.assertFalse((self.tmp / "refused").exists())
+            self.assert_refused([setting], *words)
 
 
 if __name__ == "__main__":

@@ -170,15 +170,6 @@ class Restart(Case):
 
 
 class BadInput(Case):
-    def assert_refused(self, settings, *words, status=2, writes=False):
-        out = self.tmp / "refused"
-        result = self.run_driver(out, settings)
-        self.assertEqual(result.returncode, status, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
-        self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
-        self.assertEqual(out.exists(), writes)
-
     def test_parameters(self):
         self.assert_refused(["Silo/orifice widths="], "Silo/orifice widths has no number")
         self.assert_refused(["Silo/orifice widths=0.02, 0.01"], "0.01 follows 0.02")
