@@ -6,6 +6,7 @@
 #include "fe_dealii/membrane_body.h"
 #include "fe_dealii/mesh/box_mesh.h"
 
+#include "tests/grains_on_bodies.h"
 #include "tests/solid_shapes.h"
 #include "tests/surfaces.h"
 #include "tests/temporary_folder.h"
@@ -140,32 +141,8 @@ struct GrainsAndBody
   }
 
   /// Kinetic, stored and lost less what came from outside, between kick and drift [J].
-  double energy() const
-  {
-    double sum = 0.;
-    for (const Mover *mover : {static_cast<const Mover *>(grains), static_cast<const Mover *>(body)})
-    {
-      const MoverEnergy e = mover->energy();
-      sum += e.kinetic + e.stored + e.lost - e.work;
-    }
-    return sum;
-  }
+  double energy() const { return test::energy_of({grains, body}); }
 };
-
-/// Superquadrics and a sphere that fly towards a block from below, beside its middle.
-dem::Particles projectiles()
-{
-  dem::Particles grains;
-  const dem::Superquadric shapes[] = {
-      {Vec3::Constant(mm), 1., 1.}, {Vec3(1.2, 1., 0.8) * mm, 0.8, 0.9}, {Vec3(1.1, 0.9, 1.4) * mm, 1., 1.}};
-  for (int k = 0; k < 3; ++k)
-  {
-    grains.add(shapes[k], density, Vec3(2.5 * (k - 0.7), 0.4 * k, -1.05 - 0.2 * k) * mm,
-               Quaternion(Eigen::AngleAxisd(0.3 + k, Vec3(1., 2., -1.).normalized())));
-    grains.velocity[k] = Vec3(0.05, -0.02 * k, 0.5);
-  }
-  return grains;
-}
 
 Block target(const Shape shape)
 {
@@ -184,7 +161,8 @@ GrainsAndBody impact(const Kind &kind, const double friction, const double dampi
 {
   auto body = make(target(kind.shape));
   const fe::FaceTriangles faces = faces_of(*body, kind.n_squares);
-  return {grains_of(friction, damping, time_step), projectiles(), std::move(body), faces};
+  return {grains_of(friction, damping, time_step), test::projectiles({-1.05 * mm, 0.2 * mm, Vec3(0.05, -0.02, 0.5)}),
+          std::move(body), faces};
 }
 
 } // namespace

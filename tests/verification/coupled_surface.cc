@@ -3,6 +3,7 @@
 #include "coupling/adapter/surface_contact.h"
 #include "coupling/model/model.h"
 
+#include "tests/grains_on_bodies.h"
 #include "tests/surfaces.h"
 
 #include <catch2/catch.hpp>
@@ -82,32 +83,8 @@ struct GrainsAndBody
   }
 
   /// Kinetic, stored and lost less what came from outside, between kick and drift [J].
-  double energy() const
-  {
-    double sum = 0.;
-    for (const Mover *mover : {static_cast<const Mover *>(grains), static_cast<const Mover *>(body)})
-    {
-      const MoverEnergy e = mover->energy();
-      sum += e.kinetic + e.stored + e.lost - e.work;
-    }
-    return sum;
-  }
+  double energy() const { return test::energy_of({grains, body}); }
 };
-
-/// Superquadrics that fly towards a cuboid from below, beside its middle.
-dem::Particles projectiles()
-{
-  dem::Particles grains;
-  const dem::Superquadric shapes[] = {
-      {Vec3::Constant(mm), 1., 1.}, {Vec3(1.2, 1., 0.8) * mm, 0.8, 0.9}, {Vec3(1.1, 0.9, 1.4) * mm, 1., 1.}};
-  for (int k = 0; k < 3; ++k)
-  {
-    grains.add(shapes[k], density, Vec3(2.5 * (k - 0.7), 0.4 * k, -2. - 0.3 * k) * mm,
-               Quaternion(Eigen::AngleAxisd(0.3 + k, Vec3(1., 2., -1.).normalized())));
-    grains.velocity[k] = Vec3(0.02, -0.01 * k, 0.2);
-  }
-  return grains;
-}
 
 } // namespace
 
@@ -120,7 +97,8 @@ TEST_CASE("grains and a free body of triangles exchange momentum, angular moment
   for (int k = 0; k < 2; ++k)
   {
     const double time_step = 1e-6 / (1 << k);
-    GrainsAndBody s(parameters(0.3, damping, time_step), projectiles(),
+    GrainsAndBody s(parameters(0.3, damping, time_step),
+                    test::projectiles({-2. * mm, 0.3 * mm, Vec3(0.02, -0.01, 0.2)}),
                     cuboid(Vec3(0., 0., 1.) * mm, Vec3(8., 6., 2.) * mm));
     const Vec3 before = s.momentum();
     s.model.compute_forces();
@@ -151,7 +129,8 @@ TEST_CASE("grains and a free body of triangles exchange momentum, angular moment
 
 TEST_CASE("forces on the nodes of a surface have the sum and the moment of its contacts")
 {
-  GrainsAndBody s(parameters(0.5, 0.3, 1e-6), projectiles(), cuboid(Vec3(0., 0., 1.) * mm, Vec3(8., 6., 2.) * mm));
+  GrainsAndBody s(parameters(0.5, 0.3, 1e-6), test::projectiles({-2. * mm, 0.3 * mm, Vec3(0.02, -0.01, 0.2)}),
+                  cuboid(Vec3(0., 0., 1.) * mm, Vec3(8., 6., 2.) * mm));
   int n_compared = 0;
   for (int n = 0; n < 8000; ++n)
   {
