@@ -50,15 +50,16 @@ template <class Body>
 /// Calls body(part, begin, end) for contiguous parts that make up [0, n); part 0 comes first in [0, n), and so on.
 /// Every thread has the same share of [0, n) at each call, so that its data stay in the caches of its core, and works
 /// it off in parts; what another has not begun when it is done it takes over. Runs alone, as one part, where there is
-/// too little work for a team. ThreadSanitizer looks into the bodies, but not at how the compiler hands them to the
-/// threads: that lies within the region's own barrier.
+/// too little work for a team; else with the whole team, whatever the work: GCC's OpenMP library ends the threads that
+/// a smaller team leaves out, and starts others for the next larger one. ThreadSanitizer looks into the bodies, but not
+/// at how the compiler hands them to the threads: that lies within the region's own barrier.
 /// @param least of [0, n) that is worth a part
 template <class Body>
 [[gnu::no_sanitize("thread")]] void parallel_ranges(const std::size_t n, const std::size_t least, Body &&body)
 {
   const std::size_t n_parts = std::min(most_parts(), n / least);
-  const std::size_t n_threads = std::min<std::size_t>(omp_get_max_threads(), n_parts);
-  if (n_threads < 2)
+  const std::size_t n_threads = omp_get_max_threads();
+  if (n_threads < 2 || n_parts < 2)
   {
     if (n > 0)
       run_part(body, 0, 0, n);
