@@ -187,6 +187,12 @@ BERGAMO_INLINE Pack load(const double *numbers)
   return Pack(numbers, std::experimental::element_aligned);
 }
 
+/// Writes them there.
+BERGAMO_INLINE void store(const Pack &x, double *numbers)
+{
+  x.copy_to(numbers, std::experimental::element_aligned);
+}
+
 /// The first lane that is true; of as many as there are, if none is.
 BERGAMO_INLINE int first_true(const Pack::mask_type &mask)
 {

@@ -26,6 +26,8 @@ struct Lanes
 
 Pack load(const std::vector<double> &values, const Lanes &grains)
 {
+  if (grains.size() == pack_width)
+    return math::load(&values[grains.begin]);
   return math::generate<Pack>([&](const int lane) { return values[grains(lane)]; });
 }
 
@@ -41,6 +43,27 @@ void store(std::vector<Vec3> &values, const Lanes &grains, const Vector3<Pack> &
   else
     for (int lane = 0; lane < grains.size(); ++lane)
       values[grains.begin + lane] = math::lane<Pack>(packed, lane);
+}
+
+void store(std::vector<Quaternion> &values, const Lanes &grains, const Orientation<Pack> &q)
+{
+  if (grains.size() == pack_width)
+    math::scatter_vectors<Pack>(
+        Vector3<Pack>(q.x, q.y, q.z), [&](const int lane) -> Vec4 & { return values[grains.begin + lane].coeffs(); },
+        q.w);
+  else
+    for (int lane = 0; lane < grains.size(); ++lane)
+      values[grains.begin + lane] =
+          Quaternion(math::lane(q.w, lane), math::lane(q.x, lane), math::lane(q.y, lane), math::lane(q.z, lane));
+}
+
+void add(std::vector<double> &values, const Lanes &grains, const Pack &packed)
+{
+  if (grains.size() == pack_width)
+    math::store(math::load(&values[grains.begin]) + packed, &values[grains.begin]);
+  else
+    for (int lane = 0; lane < grains.size(); ++lane)
+      values[grains.begin + lane] += math::lane(packed, lane);
 }
 
 /// @param path of the centres [m]; @param turn [rad]
@@ -76,9 +99,9 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Step &step, Pack &la
   const Vector3<Pack> position = old_position + velocity * Pack(dt);
   const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * (kick * free);
 
-  const auto number = [&](const int d)
-  { return math::generate<Pack>([&](const int lane) { return p.orientation[grains(lane)].coeffs()[d]; }); };
-  const Orientation<Pack> old{number(0), number(1), number(2), number(3)};
+  const auto [x, y, z, w] =
+      math::gather_fours<Pack>([&](const int lane) -> const Vec4 & { return p.orientation[grains(lane)].coeffs(); });
+  const Orientation<Pack> old{x, y, z, w};
   const Vector3<Pack> spin = mean_angular_velocity(old, load(p.inertia, grains), momentum, dt);
   const Orientation<Pack> orientation = turned(old, Vector3<Pack>(spin * Pack(dt)));
 
@@ -91,16 +114,12 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Step &step, Pack &la
   store(p.position, grains, position);
   store(p.angular_momentum, grains, momentum);
   store(p.angular_velocity, grains, spin);
-  for (int lane = 0; lane < grains.size(); ++lane)
-  {
-    p.orientation[grains.begin + lane] = Quaternion(math::lane(orientation.w, lane), math::lane(orientation.x, lane),
-                                                    math::lane(orientation.y, lane), math::lane(orientation.z, lane));
-    p.turned[grains.begin + lane] += math::lane(turn, lane);
-    if (!p.has_clumps())
-      p.parts.motion[grains.begin + lane] += math::lane(motion, lane);
-  }
+  store(p.orientation, grains, orientation);
+  add(p.turned, grains, turn);
   if (p.has_clumps())
     add_motion_of_parts(p, grains, dt * velocity.norm(), turn);
+  else
+    add(p.parts.motion, grains, motion);
   return true;
 }
 

@@ -68,7 +68,7 @@ Orientation<Real> turned(const Orientation<Real> &q, const Vector3<Real> &theta)
   const Orientation<Real> p{
       c * q.x + r[0] * q.w + r[1] * q.z - r[2] * q.y, c * q.y + r[1] * q.w + r[2] * q.x - r[0] * q.z,
       c * q.z + r[2] * q.w + r[0] * q.y - r[1] * q.x, c * q.w - r[0] * q.x - r[1] * q.y - r[2] * q.z};
-  const Real scale = Real(1.) / math::sqrt(p.x * p.x + p.y * p.y + p.z * p.z + p.w * p.w);
+  const Real scale = math::inverse_sqrt(Real(p.x * p.x + p.y * p.y + p.z * p.z + p.w * p.w));
   return {p.x * scale, p.y * scale, p.z * scale, p.w * scale};
 }
 
@@ -101,11 +101,12 @@ template <class Real>
 Vector3<Real> mean_angular_velocity(const Orientation<Real> &orientation, const Vector3<Real> &inertia,
                                     const Vector3<Real> &angular_momentum, const double time_step)
 {
-  const Vector3<Real> inverse(Real(1.) / inertia[0], Real(1.) / inertia[1], Real(1.) / inertia[2]);
-  const Vector3<Real> round = angular_momentum * inverse[0];
+  const Real of_first = Real(1.) / inertia[0];
+  const Vector3<Real> round = angular_momentum * of_first;
   const auto is_round = inertia[0] == inertia[1] && inertia[1] == inertia[2];
   if (!math::any(!is_round))
     return round;
+  const Vector3<Real> inverse(of_first, Real(1.) / inertia[1], Real(1.) / inertia[2]);
   const Matrix3<Real> matrix = orientation.matrix();
   const Vector3<Real> w1 = detail::spin_of(matrix, inverse, angular_momentum);
   // A body turned by theta sees the momentum turned back by it.

@@ -22,6 +22,18 @@ struct FeatureOfSurface
   std::int32_t number;
 };
 
+/// The motion of the material of a feature over a step: each of its points, and what is straight above it, moves with
+/// its nodes and turns with its face.
+struct SurfaceMotion
+{
+  Vec3 node = Vec3::Zero(), velocity = Vec3::Zero(); ///< place and velocity of one of its nodes [m], [m/s]
+  Vec3 spin = Vec3::Zero();                          ///< of the feature's face, or of one of its faces [1/s]
+  Mat3 gradient = Mat3::Zero();                      ///< of the velocity, by place [1/s]
+
+  /// @param point on or above the feature [m]
+  Vec3 velocity_at(const Vec3 &point) const { return velocity + gradient * (point - node); }
+};
+
 /// Which feature a count means. @param count in [0, sum of n_features())
 FeatureOfSurface feature_of(std::span<const Surface> surfaces, std::int32_t count);
 
@@ -40,14 +52,10 @@ struct Surface
   std::size_t n_features() const { return topology.n_faces() + topology.n_edges() + topology.n_nodes(); }
   bool is_at_rest() const { return drift_velocity.empty(); } ///< over the step before
 
-  /// @name Over the step before, of the material of a feature; zero at rest
-  /// @{
-  Vec3 velocity_at(const FeatureOfSurface &feature, const Vec3 &point) const; ///< at a point on or above it [m]; [m/s]
-  Vec3 spin_of(const FeatureOfSurface &feature) const; ///< of the feature's face, or one of its faces [1/s]
-  /// @}
+  SurfaceMotion motion_of(const FeatureOfSurface &feature) const; ///< over the step before; zero at rest
 
   /// Adds a force at a point on or above a feature to those on the nodes, with its moment, so that these do the work of
-  /// the force along velocity_at() however the nodes move. @param[in,out] forces by node [N]
+  /// the force along motion_of() however the nodes move. @param[in,out] forces by node [N]
   void add_force(const FeatureOfSurface &feature, const Vec3 &point, const Vec3 &force, std::span<Vec3> forces) const;
 
   Vec3 direction_of_edge(std::int32_t edge) const;             ///< unit vector

@@ -23,12 +23,21 @@ FeatureMotion<double> motion_of(const std::int32_t grain, const std::int32_t fea
   const Surface &surface = scene.surfaces[f.surface];
   FeatureMotion<double> motion;
   const Vec3 place = p.position[grain] + point, velocity = p.drift_velocity[grain];
-  motion.velocity = surface.velocity_at(f, place) - velocity;
-  if (!surface.is_at_rest()) // what touched halfway has gone on with the surface since, by half of the slip
-    motion.velocity = surface.velocity_at(f, place + 0.5 * scene.time_step * motion.velocity) - velocity;
+  if (surface.is_at_rest())
+  {
+    motion.velocity = -velocity;
+    motion.feature_spin = Vec3::Zero();
+  }
+  else
+  {
+    const SurfaceMotion of_surface = surface.motion_of(f);
+    const Vec3 slip = of_surface.velocity_at(place) - velocity;
+    // What touched halfway has gone on with the surface since, by half of the slip.
+    motion.velocity = of_surface.velocity_at(place + 0.5 * scene.time_step * slip) - velocity;
+    motion.feature_spin = of_surface.spin;
+  }
   motion.spin = p.angular_velocity[grain];
   motion.time_step = scene.time_step;
-  motion.feature_spin = surface.spin_of(f);
   motion.edge = f.feature == Feature::edge ? surface.direction_of_edge(f.number) : Vec3(Vec3::Zero());
   motion.is_face = f.feature == Feature::face;
   motion.is_edge = f.feature == Feature::edge;
