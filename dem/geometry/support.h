@@ -60,6 +60,31 @@ struct LogSum
 
 } // namespace detail
 
+namespace detail
+{
+
+/// Of an ellipsoid: h^2 = sum of (r_i N_i)^2.
+inline Support<double> support_of_ellipsoid(const SupportShape<double> &shape, const Vec3 &n)
+{
+  const Vec3 half_axes(shape.r1, shape.r2, shape.r3), squares = half_axes.cwiseAbs2();
+  Support<double> s;
+  s.h = half_axes.cwiseProduct(n).norm();
+  const double inverse = 1. / s.h;
+  const Vec3 x = squares.cwiseProduct(n) * inverse, rounded = x * inverse;
+  s.x1 = x[0];
+  s.x2 = x[1];
+  s.x3 = x[2];
+  s.h11 = squares[0] * inverse - x[0] * rounded[0];
+  s.h22 = squares[1] * inverse - x[1] * rounded[1];
+  s.h33 = squares[2] * inverse - x[2] * rounded[2];
+  s.h12 = -x[0] * rounded[1];
+  s.h13 = -x[0] * rounded[2];
+  s.h23 = -x[1] * rounded[2];
+  return s;
+}
+
+} // namespace detail
+
 /// Support function of a superquadric with its gradient and Hessian.
 ///
 /// h(N) = max{N.X : X in the body} is of superquadric form with the dual exponents:
@@ -72,6 +97,9 @@ template <class Real>
 Support<Real> support(const SupportShape<Real> &shape, const Real n1, const Real n2, const Real n3)
 {
   using math::abs, math::exp, math::log;
+  if constexpr (std::is_same_v<Real, double>)
+    if (shape.q1 == 2. && shape.q2 == 2.) // spheres on triangles, which are looked at one by one
+      return detail::support_of_ellipsoid(shape, {n1, n2, n3});
   const Real tiny(1e-100); // keeps logarithms finite and products of two Hessian entries below overflow
   const Real m1 = abs(n1) + tiny, m2 = abs(n2) + tiny, m3 = abs(n3) + tiny;
 

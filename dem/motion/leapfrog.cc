@@ -33,13 +33,27 @@ Pack load(const std::vector<double> &values, const Lanes &grains)
 
 Vector3<Pack> load(const std::vector<Vec3> &values, const Lanes &grains)
 {
+  if (grains.size() == pack_width)
+    return math::load_vectors<Pack>(&values[grains.begin]);
   return math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return values[grains(lane)]; });
+}
+
+Orientation<Pack> load(const std::vector<Quaternion> &values, const Lanes &grains)
+{
+  if (grains.size() == pack_width)
+  {
+    const auto [x, y, z, w] = math::load_fours<Pack>(values[grains.begin].coeffs().data());
+    return {x, y, z, w};
+  }
+  const auto number = [&](const int d)
+  { return math::generate<Pack>([&](const int lane) { return values[grains(lane)].coeffs()[d]; }); };
+  return {number(0), number(1), number(2), number(3)};
 }
 
 void store(std::vector<Vec3> &values, const Lanes &grains, const Vector3<Pack> &packed)
 {
   if (grains.size() == pack_width)
-    math::scatter_vectors<Pack>(packed, [&](const int lane) -> Vec3 & { return values[grains.begin + lane]; });
+    math::store_vectors<Pack>(packed, &values[grains.begin]);
   else
     for (int lane = 0; lane < grains.size(); ++lane)
       values[grains.begin + lane] = math::lane<Pack>(packed, lane);
@@ -99,9 +113,7 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Step &step, Pack &la
   const Vector3<Pack> position = old_position + velocity * Pack(dt);
   const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * (kick * free);
 
-  const auto [x, y, z, w] =
-      math::gather_fours<Pack>([&](const int lane) -> const Vec4 & { return p.orientation[grains(lane)].coeffs(); });
-  const Orientation<Pack> old{x, y, z, w};
+  const Orientation<Pack> old = load(p.orientation, grains);
   const Vector3<Pack> spin = mean_angular_velocity(old, load(p.inertia, grains), momentum, dt);
   const Orientation<Pack> orientation = turned(old, Vector3<Pack>(spin * Pack(dt)));
 

@@ -9,79 +9,67 @@
 
 namespace bergamo::dem
 {
+namespace
+{
+
+std::array<Vec3, 3> corners(const std::vector<Vec3> &values, const Triangle &t)
+{
+  return {values[t[0]], values[t[1]], values[t[2]]};
+}
+
+} // namespace
 
 Surface::Surface(std::vector<Vec3> nodes, std::vector<Triangle> triangles)
     : topology(std::move(triangles), nodes.size()), node(std::move(nodes))
 {
 }
 
-Surface::Plane Surface::plane_of(const Triangle &t) const
+FacePlane<double> Surface::plane_of(const Triangle &t) const
 {
-  const Vec3 a = node[t[1]] - node[t[0]], b = node[t[2]] - node[t[0]];
-  const Vec3 area = a.cross(b), inverse = area / area.squaredNorm();
-  return {area.normalized(), b.cross(inverse), inverse.cross(a)};
+  return FacePlane<double>(corners(node, t));
 }
 
-/// The face turns with its normal, and about it by the mean of what turns the plane in itself.
-SurfaceMotion Surface::motion_of(const FeatureOfSurface &f) const
+FeatureField<double> Surface::field_of(const FeatureOfSurface &f) const
 {
-  SurfaceMotion motion;
-  if (is_at_rest())
-    return motion;
   const Triangle &t = topology.triangle[face_of(f)];
-  const auto [normal, of_a, of_b] = plane_of(t);
-  const Vec3 va = drift_velocity[t[1]] - drift_velocity[t[0]], vb = drift_velocity[t[2]] - drift_velocity[t[0]];
-  const Vec3 of_normal = -(of_a * va.dot(normal) + of_b * vb.dot(normal)); // its rate
-  motion.spin = normal.cross(of_normal) + 0.5 * normal * normal.dot(of_a.cross(va) + of_b.cross(vb));
+  FeatureField<double> field = plane_of(t).field(corners(node, t), corners(drift_velocity, t));
   if (f.feature == Feature::face)
-  {
-    motion.node = node[t[0]];
-    motion.velocity = drift_velocity[t[0]];
-    motion.gradient = va * of_a.transpose() + vb * of_b.transpose() + of_normal * normal.transpose();
-    return motion;
-  }
+    return field;
   const std::int32_t first = f.feature == Feature::edge ? topology.edge[f.number].from : f.number;
-  motion.node = node[first];
-  motion.velocity = drift_velocity[first];
-  motion.gradient = -Mat3::Identity().colwise().cross(motion.spin);
+  field.node = node[first];
+  field.velocity = drift_velocity[first];
+  field.gradient = -Mat3::Identity().colwise().cross(field.spin);
   if (f.feature == Feature::edge)
   {
     const std::int32_t last = topology.edge[f.number].to;
     const Vec3 along = node[last] - node[first], stretching = drift_velocity[last] - drift_velocity[first];
-    motion.gradient += (stretching - motion.spin.cross(along)) * (along / along.squaredNorm()).transpose();
+    field.gradient += (stretching - field.spin.cross(along)) * (along / along.squaredNorm()).transpose();
   }
-  return motion;
+  return field;
 }
 
-/// The transpose of motion_of(): on a face by the shares of its nodes and by what turns its normal, else by the shares
-/// and by the moment about the point straight below.
+/// The transpose of field_of(): beside a face by the shares of the feature's nodes, and by the moment about the point
+/// straight below.
 void Surface::add_force(const FeatureOfSurface &f, const Vec3 &point, const Vec3 &force,
                         const std::span<Vec3> forces) const
 {
   const Triangle &t = topology.triangle[face_of(f)];
-  const auto [normal, of_a, of_b] = plane_of(t);
-  const auto add = [&](const Vec3 &on_first, const Vec3 &on_second, const Vec3 &on_third)
+  const FacePlane<double> plane = plane_of(t);
+  const auto add = [&](const std::array<Vec3, 3> &on_corners)
   {
-    forces[t[0]] += on_first;
-    forces[t[1]] += on_second;
-    forces[t[2]] += on_third;
+    for (int k = 0; k < 3; ++k)
+      forces[t[k]] += on_corners[k];
   };
   if (f.feature == Feature::face)
-  {
-    const Vec3 arm = point - node[t[0]], tilting = arm.dot(normal) * normal;
-    const Vec3 on_second = of_a.dot(arm) * force - of_a.dot(force) * tilting,
-               on_third = of_b.dot(arm) * force - of_b.dot(force) * tilting;
-    add(force - on_second - on_third, on_second, on_third);
-    return;
-  }
+    return add(plane.forces(point - node[t[0]], force));
   const NodeShares shares = node_shares(*this, f.feature, f.number, point);
   for (int k = 0; k < 3; ++k)
     forces[shares.node[k]] += shares.share[k] * force;
-  const Vec3 moment = (point - shares.of(node)).cross(force), tilting = normal.cross(moment);
+  const Vec3 moment = (point - shares.of(node)).cross(force), tilting = plane.normal.cross(moment);
   const auto turned_by = [&](const Vec3 &gradient) -> Vec3
-  { return tilting.dot(gradient) * normal + 0.5 * moment.dot(normal) * normal.cross(gradient); };
-  const Vec3 on_second = turned_by(of_a), on_third = turned_by(of_b);
-  add(-on_second - on_third, on_second, on_third);
+  { return tilting.dot(gradient) * plane.normal + 0.5 * moment.dot(plane.normal) * plane.normal.cross(gradient); };
+  const Vec3 on_second = turned_by(plane.of_second), on_third = turned_by(plane.of_third);
+  add({-on_second - on_third, on_second, on_third});
 }
 
 Vec3 Surface::direction_of_edge(const std::int32_t e) const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dem/core/types.h"
+#include "dem/geometry/face_plane.h"
 #include "dem/geometry/surface_contact.h"
 
 #include <array>
@@ -22,18 +23,6 @@ struct FeatureOfSurface
   std::int32_t number;
 };
 
-/// The motion of the material of a feature over a step: each of its points, and what is straight above it, moves with
-/// its nodes and turns with its face.
-struct SurfaceMotion
-{
-  Vec3 node = Vec3::Zero(), velocity = Vec3::Zero(); ///< place and velocity of one of its nodes [m], [m/s]
-  Vec3 spin = Vec3::Zero();                          ///< of the feature's face, or of one of its faces [1/s]
-  Mat3 gradient = Mat3::Zero();                      ///< of the velocity, by place [1/s]
-
-  /// @param point on or above the feature [m]
-  Vec3 velocity_at(const Vec3 &point) const { return velocity + gradient * (point - node); }
-};
-
 /// Which feature a count means. @param count in [0, sum of n_features())
 FeatureOfSurface feature_of(std::span<const Surface> surfaces, std::int32_t count);
 
@@ -52,10 +41,10 @@ struct Surface
   std::size_t n_features() const { return topology.n_faces() + topology.n_edges() + topology.n_nodes(); }
   bool is_at_rest() const { return drift_velocity.empty(); } ///< over the step before
 
-  SurfaceMotion motion_of(const FeatureOfSurface &feature) const; ///< over the step before; zero at rest
+  FeatureField<double> field_of(const FeatureOfSurface &feature) const; ///< over the step before; it has moved then
 
   /// Adds a force at a point on or above a feature to those on the nodes, with its moment, so that these do the work of
-  /// the force along motion_of() however the nodes move. @param[in,out] forces by node [N]
+  /// the force along field_of() however the nodes move. @param[in,out] forces by node [N]
   void add_force(const FeatureOfSurface &feature, const Vec3 &point, const Vec3 &force, std::span<Vec3> forces) const;
 
   Vec3 direction_of_edge(std::int32_t edge) const;             ///< unit vector
@@ -116,12 +105,7 @@ struct Surface
   }
 
 private:
-  /// Of a triangle: its normal, and the gradients of the shares of its second and third node [1/m].
-  struct Plane
-  {
-    Vec3 normal, of_second, of_third;
-  };
-  Plane plane_of(const Triangle &triangle) const;
+  FacePlane<double> plane_of(const Triangle &triangle) const;
   std::vector<std::int32_t> numbers() const;
   void restore(const std::vector<std::int32_t> &nodes_of_triangles);
 

@@ -14,42 +14,133 @@ namespace bergamo::dem
 namespace
 {
 
-/// @param grain a particle; @param feature see feature_of(); @param point of the contact minus the grain's centre [m]
-FeatureMotion<double> motion_of(const std::int32_t grain, const std::int32_t feature, const ContactScene &scene,
+/// Of a surface that has moved: what touched halfway has gone on with it since, by half of the slip.
+/// @param place of the contact [m]; @param velocity of the grain [m/s]
+template <class Real>
+Vector3<Real> velocity_seen(const FeatureField<Real> &surface, const Vector3<Real> &place,
+                            const Vector3<Real> &velocity, const double time_step)
+{
+  const Vector3<Real> slip = surface.velocity_at(place) - velocity;
+  return surface.velocity_at(place + slip * Real(0.5 * time_step)) - velocity;
+}
+
+/// @param grain a particle; @param point of the contact minus the grain's centre [m]
+FeatureMotion<double> motion_of(const std::int32_t grain, const FeatureOfSurface &f, const ContactScene &scene,
                                 const Vec3 &point)
 {
   const Particles &p = scene.particles;
-  const FeatureOfSurface f = feature_of(scene.surfaces, feature);
   const Surface &surface = scene.surfaces[f.surface];
   FeatureMotion<double> motion;
-  const Vec3 place = p.position[grain] + point, velocity = p.drift_velocity[grain];
-  if (surface.is_at_rest())
-  {
-    motion.velocity = -velocity;
-    motion.feature_spin = Vec3::Zero();
-  }
-  else
-  {
-    const SurfaceMotion of_surface = surface.motion_of(f);
-    const Vec3 slip = of_surface.velocity_at(place) - velocity;
-    // What touched halfway has gone on with the surface since, by half of the slip.
-    motion.velocity = of_surface.velocity_at(place + 0.5 * scene.time_step * slip) - velocity;
-    motion.feature_spin = of_surface.spin;
-  }
+  motion.velocity = -p.drift_velocity[grain];
   motion.spin = p.angular_velocity[grain];
   motion.time_step = scene.time_step;
+  motion.feature_spin = Vec3::Zero();
+  if (!surface.is_at_rest())
+  {
+    const FeatureField<double> field = surface.field_of(f);
+    motion.velocity = velocity_seen<double>(field, p.position[grain] + point, p.drift_velocity[grain], scene.time_step);
+    motion.feature_spin = field.spin;
+  }
   motion.edge = f.feature == Feature::edge ? surface.direction_of_edge(f.number) : Vec3(Vec3::Zero());
   motion.is_face = f.feature == Feature::face;
   motion.is_edge = f.feature == Feature::edge;
   return motion;
 }
 
-/// Of a free lane.
-FeatureMotion<double> at_rest(const double time_step)
+/// As motion_of(), for a block of contacts. Most are on faces: those go by packs.
+class BlockMotion
 {
-  const Vec3 zero = Vec3::Zero();
-  return {{zero, zero, time_step}, zero, zero, 1., 0.};
-}
+public:
+  BlockMotion(const GrainSurface::Store &store, const std::size_t block, const ContactScene &scene) : scene(scene)
+  {
+    grain.fill(-1);
+    for (int lane = 0; lane < pack_width; ++lane)
+    {
+      const std::size_t slot = block * pack_width + lane;
+      if (store.pair[slot] == GrainSurface::Store::free_slot)
+        continue;
+      grain[lane] = store.first[slot];
+      feature[lane] = feature_of(scene.surfaces, store.second[slot]);
+      moves = moves || !surface_of(lane).is_at_rest();
+      beside_faces = beside_faces || feature[lane].feature != Feature::face;
+    }
+  }
+
+  /// @param point of the contacts minus the grains' centres [m]
+  FeatureMotion<Pack> at(const Vector3<Pack> &point) const
+  {
+    const Particles &p = scene.particles;
+    const Vector3<Pack> velocity = of_grains(p.drift_velocity), none = math::gather_vectors<Pack>(nothing);
+    FeatureMotion<Pack> motion{
+        {-velocity, of_grains(p.angular_velocity), scene.time_step}, none, none, Pack(1.), Pack(0.)};
+    if (moves)
+    {
+      const FeatureField<Pack> field = of_surfaces();
+      motion.velocity = velocity_seen<Pack>(field, of_grains(p.position) + point, velocity, scene.time_step);
+      motion.feature_spin = field.spin;
+    }
+    if (beside_faces)
+      for (int lane = 0; lane < pack_width; ++lane)
+        if (is_taken(lane) && feature[lane].feature != Feature::face)
+          set_lane(motion, lane, math::lane<Pack>(point, lane));
+    return motion;
+  }
+
+private:
+  static const Vec3 &nothing(int)
+  {
+    static const Vec3 zero = Vec3::Zero();
+    return zero;
+  }
+
+  bool is_taken(const int lane) const { return grain[lane] >= 0; }
+  const Surface &surface_of(const int lane) const { return scene.surfaces[feature[lane].surface]; }
+
+  Vector3<Pack> of_grains(const std::vector<Vec3> &values) const
+  {
+    return math::gather_vectors<Pack>([&](const int lane) -> const Vec3 &
+                                      { return is_taken(lane) ? values[grain[lane]] : nothing(lane); });
+  }
+
+  /// Of the faces; a free lane has some triangle that rests.
+  FeatureField<Pack> of_surfaces() const
+  {
+    static const std::array<Vec3, 3> some{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
+    std::array<Vector3<Pack>, 3> node, velocity;
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto number = [&](const int lane)
+      { return surface_of(lane).topology.triangle[surface_of(lane).face_of(feature[lane])][k]; };
+      node[k] = math::gather_vectors<Pack>([&](const int lane) -> const Vec3 &
+                                           { return is_taken(lane) ? surface_of(lane).node[number(lane)] : some[k]; });
+      velocity[k] = math::gather_vectors<Pack>(
+          [&](const int lane) -> const Vec3 &
+          {
+            return is_taken(lane) && !surface_of(lane).is_at_rest() ? surface_of(lane).drift_velocity[number(lane)]
+                                                                    : nothing(lane);
+          });
+    }
+    return FacePlane<Pack>(node).field(node, velocity);
+  }
+
+  void set_lane(FeatureMotion<Pack> &motion, const int lane, const Vec3 &point) const
+  {
+    const FeatureMotion<double> one = motion_of(grain[lane], feature[lane], scene, point);
+    for (int d = 0; d < 3; ++d)
+    {
+      motion.velocity[d][lane] = one.velocity[d];
+      motion.feature_spin[d][lane] = one.feature_spin[d];
+      motion.edge[d][lane] = one.edge[d];
+    }
+    motion.is_face[lane] = one.is_face;
+    motion.is_edge[lane] = one.is_edge;
+  }
+
+  const ContactScene &scene;
+  std::array<std::int32_t, pack_width> grain; // -1: a free lane
+  std::array<FeatureOfSurface, pack_width> feature;
+  bool moves = false, beside_faces = false;
+};
 
 /// The touching contact of the same part that a new one takes over from: the nearest in direction, about as deep.
 std::optional<SurfaceContactState<double>> taken_over(const ContactSearch &search,
@@ -134,30 +225,7 @@ math::Mask<Pack> GrainSurface::follow_block(Store &store, LoadSums &loads, const
                                             const ContactScene &scene, Losses<Pack> &losses)
 {
   SurfaceContactState<Pack> &state = store.blocks[block];
-  std::array<FeatureMotion<double>, pack_width> of_lane;
-  for (int lane = 0; lane < pack_width; ++lane)
-  {
-    const auto slot = static_cast<std::int32_t>(block * pack_width + lane);
-    const bool is_free = store.pair[slot] == Store::free_slot;
-    of_lane[lane] = is_free
-                        ? at_rest(scene.time_step)
-                        : motion_of(store.first[slot], store.second[slot], scene, math::lane<Pack>(state.point, lane));
-  }
-  const auto gather = [&](const auto &member)
-  {
-    return math::gather_vectors<Pack>([&](const int lane) -> const Vec3 & { return of_lane[lane].*member; });
-  };
-  const auto gather_numbers = [&](const auto &member)
-  { return math::generate<Pack>([&](const int lane) { return of_lane[lane].*member; }); };
-  using Motion = FeatureMotion<double>;
-  FeatureMotion<Pack> motion;
-  motion.velocity = gather(&Motion::velocity);
-  motion.spin = gather(&Motion::spin);
-  motion.time_step = scene.time_step;
-  motion.feature_spin = gather(&Motion::feature_spin);
-  motion.edge = gather(&Motion::edge);
-  motion.is_face = gather_numbers(&Motion::is_face);
-  motion.is_edge = gather_numbers(&Motion::is_edge);
+  const FeatureMotion<Pack> motion = BlockMotion(store, block, scene).at(state.point);
   Losses<Pack> lost;
   const Followed<Pack> followed = follow<Pack>(state, motion, scene.law, lost);
   state.friction_work += lost.friction;
@@ -195,7 +263,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
     State state = search.slot >= 0 ? context.store.get(search.slot) : State::begin();
     const double weight = place->index * scene.particles.weight[search.first];
     const Vec3 point = place->arm + 0.5 * place->overlap * place->normal;
-    const FeatureMotion<double> motion = motion_of(search.first, search.second, scene, point);
+    const FeatureMotion<double> motion = motion_of(search.first, f, scene, point);
     if (search.slot < 0)
       if (const auto other = taken_over(search, context, *place, look))
       {
@@ -227,7 +295,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
 
 ContactLosses GrainSurface::end(const ContactSearch &search, const State &state, const ContactScene &scene)
 {
-  return end_of(state, motion_of(search.first, search.second, scene, state.point));
+  return end_of(state, motion_of(search.first, feature_of(scene.surfaces, search.second), scene, state.point));
 }
 
 void GrainSurface::refresh(Store &store, const Particles &)
