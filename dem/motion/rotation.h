@@ -102,10 +102,10 @@ Vector3<Real> mean_angular_velocity(const Orientation<Real> &orientation, const 
                                     const Vector3<Real> &angular_momentum, const double time_step)
 {
   const Real of_first = Real(1.) / inertia[0];
-  const Vector3<Real> round = angular_momentum * of_first;
+  const auto round = [&]() -> Vector3<Real> { return angular_momentum * of_first; };
   const auto is_round = inertia[0] == inertia[1] && inertia[1] == inertia[2];
   if (!math::any(!is_round))
-    return round;
+    return round();
   const Vector3<Real> inverse(of_first, Real(1.) / inertia[1], Real(1.) / inertia[2]);
   const Matrix3<Real> matrix = orientation.matrix();
   const Vector3<Real> w1 = detail::spin_of(matrix, inverse, angular_momentum);
@@ -121,7 +121,7 @@ Vector3<Real> mean_angular_velocity(const Orientation<Real> &orientation, const 
   const Vector3<Real> w3 = velocity_after(w2 - w1.cross(w2) * Real(0.25 * time_step), 0.5 * time_step);
   const Vector3<Real> w4 = velocity_after(w3, time_step);
   const Vector3<Real> mean = (w1 + (w2 + w3) * Real(2.) + w4) * Real(1. / 6.) - w1.cross(w4) * Real(time_step / 12.);
-  return math::select<Real>(is_round, round, mean);
+  return math::select<Real>(is_round, round(), mean);
 }
 
 } // namespace bergamo::dem
