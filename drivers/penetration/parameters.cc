@@ -14,8 +14,8 @@ PenetrationParameters::PenetrationParameters()
   simulation.between_grains().friction = 0.24;
   simulation.with_walls().friction = 0.;
   simulation.time_step = 4e-6;
-  sand.box = Vec3(40e-3, 6e-3, 22e-3);
-  sand.solid_fraction = 0.58;
+  sand.box = Vec3(40e-3, 6e-3, 24e-3);
+  sand.solid_fraction = 0.52;
   sand.settling_gravity = 9.81;
   sand.settling_time = 0.06;
   sand.settling_step = 4e-6;
