@@ -43,7 +43,7 @@ void PenetrationMeasures::look(const Intrusion &intrusion, const double now)
   energy = grains.energy();
   residual.add(intrusion.energy_balance(), drive_work);
   momentum.look(grains);
-  if (sand.height - lowest > 0.5 * parameters.depth)
+  if (sand.height - lowest > std::min(parameters.intruder.width, 0.5 * parameters.depth))
     trend.add(sand.level - lowest, tip_pressure());
 }
 

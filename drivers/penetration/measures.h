@@ -56,7 +56,7 @@ private:
   double drive_work = 0.; // [J]
   EnergyResidual residual;
   MomentumResidual momentum;
-  DepthTrend trend; // of the tip's pressure over the lower half of the way
+  DepthTrend trend; // of the tip's pressure, from a width of the intruder on
 };
 
 } // namespace bergamo::driver

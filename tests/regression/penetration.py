@@ -82,7 +82,9 @@ class Results(Case):
         self.assertGreater(figures["bearing_factor"], 3)
         for row in rows:
             self.assertTrue(0.3 < row["solid_fraction_below_tip"] < 0.75, row["solid_fraction_below_tip"])
-            self.assertTrue(2 < row["coordination_number"] < 9 and row["coordination_number_without_rattlers"] > 3)
+            self.assertTrue(1 < row["coordination_number"] < 9, row["coordination_number"])
+            held = row["coordination_number_without_rattlers"]
+            self.assertTrue(held == 0 or held >= 4, held)  # what has fewer contacts is a rattler
             self.assertTrue(0.5 < row["coordination_number_deviation"] < 4)
 
     def test_cone_and_plate(self):
@@ -110,13 +112,14 @@ class Restart(Case):
         whole = self.figures("whole", SHORT)
         parts = self.tmp / "parts"
         options = SNAPSHOTS_BY_STEPS
-        for rows, send in ((None, signal.SIGKILL), (10, signal.SIGINT)):
+        for rows, send in ((None, signal.SIGKILL), (25, signal.SIGINT)):
             has_snapshot = renewal(parts / "snapshot.h5")
             stop_when(lambda: has_snapshot() and (rows is None or n_rows(parts / "history.csv") > rows),
                       self.command(parts, SHORT, *options), send)
             options = [*SNAPSHOTS_BY_STEPS, "--restart"]
         self.check_success(self.run_driver(parts, SHORT, *options))
-        self.assertEqual((parts / "history.csv").read_text(), (self.tmp / "whole" / "history.csv").read_text())
+        for file in ("history.csv", "grains_0001.vtu", "contacts_0001.vtu", "surfaces_0001.vtu"):
+            self.assertEqual((parts / file).read_bytes(), (self.tmp / "whole" / file).read_bytes(), file)
         figures = json.loads((parts / "summary.json").read_text())
         for name in whole:
             if name.split("_")[0] not in OF_THE_CLOCK:
