@@ -9,16 +9,16 @@ namespace bergamo::driver
 
 PenetrationParameters::PenetrationParameters()
 {
-  simulation.grain() = {.young_modulus = 5e7, .poisson_ratio = 0.2, .density = 2650.};
+  simulation.grain() = {.young_modulus = 2e7, .poisson_ratio = 0.2, .density = 2650.};
   simulation.set_damping(0.3);
   simulation.between_grains().friction = 0.24;
   simulation.with_walls().friction = 0.;
-  simulation.time_step = 4e-6;
-  sand.box = Vec3(40e-3, 6e-3, 24e-3);
+  simulation.time_step = 6e-6;
+  sand.box = Vec3(40e-3, 6e-3, 22e-3);
   sand.solid_fraction = 0.52;
   sand.settling_gravity = 9.81;
-  sand.settling_time = 0.06;
-  sand.settling_step = 4e-6;
+  sand.settling_time = 0.15;
+  sand.settling_step = 1e-5;
   output.n_samples = 100;
 }
 

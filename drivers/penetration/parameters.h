@@ -23,8 +23,8 @@ struct PenetrationParameters
   dem::SimulationParameters simulation; ///< without the intruder's material
 
   double gravity = 9.81;    ///< [m/s²]
-  double depth = 12e-3;     ///< way of the intruder, from where it touches the highest grain [m]
-  double speed = 0.1;       ///< [m/s]
+  double depth = 11e-3;     ///< way of the intruder, from where it touches the highest grain [m]
+  double speed = 0.05;      ///< [m/s]
   double start_time = 5e-3; ///< over which the speed grows [s]
   OutputParameters output;
 
