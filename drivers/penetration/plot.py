@@ -70,7 +70,7 @@ def draw_chains(folder):
     branches, force = chains_near(contacts, 3 * size)
     intruder = segments_of(cut_at(surfaces, 0))
     figure, [panels] = run_data.new_panels(1, 2)
-    figure.set_size_inches(14, 5.2)
+    figure.set_size_inches(14, 4.2)
     limit = np.quantile(np.abs(sinking), 0.98) * 1e3
     for axes, values, colours, limits, label in (
             (panels[0], pressure / 1e3, "YlOrRd", (0, np.quantile(pressure, 0.99) / 1e3), "pressure in the grains in kPa"),
