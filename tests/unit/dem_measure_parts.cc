@@ -39,11 +39,11 @@ TEST_CASE("a surface's load is dealt out to its parts, and what touches where th
   const std::vector<dem::Surface> surfaces(2, dem::Surface(cube.node, cube.topology.triangle));
   const auto n_features = static_cast<std::int32_t>(surfaces[0].n_features());
   SurfaceParts parts{.surface = 1, .n_parts = 3, .of_face = {}};
-  for (const Triangle &t : cube.topology.triangle) // bottom, top, sides
+  for (const Triangle &t : cube.topology.triangle) // sides, bottom, top: the first is not that of the first face
   {
     const auto all_at = [&](const double z)
     { return std::all_of(t.begin(), t.end(), [&](const std::int32_t n) { return cube.node[n][2] == z; }); };
-    parts.of_face.push_back(all_at(-1.) ? 0 : all_at(1.) ? 1 : 2);
+    parts.of_face.push_back(all_at(-1.) ? 1 : all_at(1.) ? 2 : 0);
   }
   Particles grains;
   grains.add({Vec3::Ones(), 1., 1.}, 1., Vec3(0.3, -2., 1.), Quaternion::Identity());
