@@ -6,7 +6,8 @@ namespace bergamo::dem
 {
 
 /// VTK's numbers of the kinds of cells.
-inline constexpr std::uint8_t vtk_vertex = 1, vtk_triangle = 5, vtk_quadrilateral = 9, vtk_hexahedron = 12;
+inline constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_triangle = 5, vtk_quadrilateral = 9,
+                              vtk_hexahedron = 12;
 
 /// Vertices, lines, rows of them, and lines of second order.
 inline bool is_point_or_line(const double type)

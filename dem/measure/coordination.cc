@@ -1,6 +1,9 @@
 #include "dem/measure/coordination.h"
 
 #include "dem/core/rows.h"
+
+#include <cmath>
+
 namespace bergamo::dem
 {
 namespace
@@ -37,14 +40,19 @@ Rows<std::int32_t> neighbours_of_grains(const std::size_t n_grains, const std::s
 /// Sum over some grains and their number.
 struct Mean
 {
-  std::int64_t sum = 0, n = 0;
+  std::int64_t sum = 0, sum_of_squares = 0, n = 0;
 
   void add(const std::int64_t value)
   {
     sum += value;
+    sum_of_squares += value * value;
     ++n;
   }
   double value() const { return n > 0 ? static_cast<double>(sum) / static_cast<double>(n) : 0.; }
+  double deviation() const ///< without loss: the difference is one of whole numbers
+  {
+    return n > 0 ? std::sqrt(static_cast<double>(n * sum_of_squares - sum * sum)) / static_cast<double>(n) : 0.;
+  }
 };
 
 } // namespace
@@ -104,6 +112,7 @@ CoordinationNumbers coordination_numbers(const Particles &particles, const std::
       without_rattlers.add(bearing_count[i]);
   }
   numbers.mean = all.value();
+  numbers.deviation = all.deviation();
   numbers.mechanical = mechanical.value();
   numbers.without_rattlers = without_rattlers.value();
   return numbers;

@@ -15,6 +15,7 @@ namespace bergamo::dem
 struct CoordinationNumbers
 {
   double mean = 0.;             ///< of all grains, 2 Nc / N
+  double deviation = 0.;        ///< standard deviation of the grains' numbers of contacts from it
   double mechanical = 0.;       ///< of grains with two contacts or more, (2 Nc - N1) / (N - N0 - N1) (Thornton 2000)
   double without_rattlers = 0.; ///< of the grains that are no rattlers, from the contacts among them
   std::int64_t n_rattlers = 0;  ///< see find_rattlers()

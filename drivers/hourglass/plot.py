@@ -16,8 +16,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots"))
 import run_data
-from picture import read_vtu
 from run_data import COLOURS
+from slices import slice_of
 
 
 def draw_flow(folder):
@@ -49,31 +49,6 @@ def draw_flow(folder):
     run_data.save_diagram(figure, folder, "hourglass.png")
 
 
-def slice_of(path):
-    """Outlines of the grains in the plane y = 0, in mm, and the heights that they began at."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkCommonDataModel import vtkPlane
-    from vtkmodules.vtkFiltersCore import vtkCutter
-    cutter, plane = vtkCutter(), vtkPlane()
-    plane.SetNormal(0, 1, 0)
-    cutter.SetInputData(read_vtu(path))
-    cutter.SetCutFunction(plane)
-    cutter.Update()
-    cut = cutter.GetOutput()
-    places = vtk_to_numpy(cut.GetPoints().GetData())[:, [0, 2]] * 1e3
-    ends = vtk_to_numpy(cut.GetLines().GetConnectivityArray()).reshape(-1, 2)
-    ids = vtk_to_numpy(cut.GetCellData().GetArray("id"))
-    heights = vtk_to_numpy(cut.GetCellData().GetArray("start_height")) * 1e3
-    outlines, colours = [], []
-    order = np.argsort(ids, kind="stable")
-    for rows in np.split(order, np.flatnonzero(np.diff(ids[order])) + 1):
-        outline = places[ends[rows].ravel()]
-        around = outline - outline.mean(axis=0)  # a convex grain's section is convex
-        outlines.append(outline[np.argsort(np.arctan2(around[:, 1], around[:, 0]))])
-        colours.append(heights[rows[0]])
-    return outlines, np.array(colours)
-
-
 def glass_profile(parameters):
     """Radius and height of the glass, from the floor to the top, in mm."""
     import math
@@ -95,7 +70,8 @@ def draw_grains(folder):
     figure.set_size_inches(1 + 2.2 * len(shown), 6)
     highest = None
     for axes, path in zip(panels[0], shown):
-        outlines, heights = slice_of(path)
+        outlines, [heights] = slice_of(path, ["start_height"])
+        heights = heights * 1e3
         highest = highest or heights.max()
         axes.add_collection(PolyCollection(outlines, array=heights, cmap="turbo", clim=(0, highest), linewidths=0))
         for side in (-1, 1):

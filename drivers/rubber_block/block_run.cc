@@ -61,17 +61,10 @@ bool BlockRun::settle()
   if (pull)
     return true;
   if (!sand)
-    sand = pack_sand(parameters);
-  if (!sand)
+    sand = pack_sand(parameters.sand, parameters.box(), parameters.settling());
+  if (!sand || !settle_sand(run, *sand, parameters.sand))
     return false;
-  const std::int64_t n_steps = parameters.n_settling_steps();
-  Stage stage = run.even_stage("settling", n_steps, parameters.sand.settling_step);
-  stage.n_particles = static_cast<std::int64_t>(sand->particles.size());
-  stage.compute = [&] { sand->compute_forces(); };
-  stage.move = [&] { sand->integrate(); };
-  if (!run.advance(stage, {{every_steps(200), [&] { sand->check_finite(); }}}))
-    return false;
-  settled = end_settling(*sand, parameters);
+  settled = end_settling(*sand, parameters.sand, parameters.pulling());
   pull = std::make_unique<Pull>(parameters, std::move(sand), settled.height);
   return true;
 }

@@ -3,9 +3,9 @@
 #include "drivers/common/run/energy_residual.h"
 #include "drivers/common/run/picture_series.h"
 #include "drivers/common/run/run.h"
+#include "drivers/common/run/settled_sand.h"
 #include "drivers/common/run/stable_step_watch.h"
 #include "drivers/rubber_block/figures.h"
-#include "drivers/rubber_block/sand.h"
 #include "drivers/rubber_block/tables.h"
 
 #include <memory>

@@ -2,26 +2,17 @@
 
 #include "dem/core/error.h"
 #include "dem/law/restitution.h"
-#include "dem/motion/stable_step.h"
 #include "drivers/common/grain_parameters.h"
-#include "drivers/common/run/step_count.h"
+#include "drivers/common/smooth_step.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace bergamo::driver
 {
 namespace
 {
-
-/// From 0 to 1, without a jump of the rate. @param share of the time
-double smooth(const double share)
-{
-  const double s = std::clamp(share, 0., 1.);
-  return s * s * (3. - 2. * s);
-}
 
 void declare_elastic(ParameterFile &file, const std::string &section, fe::ElasticParameters &elastic)
 {
@@ -82,21 +73,6 @@ void BlockParameters::validate() const
            top_layers, ": the groove ends in the rubber; make it lower");
 }
 
-void SandParameters::declare(ParameterFile &file)
-{
-  file.add("Sand", "box", {box.data(), 3}, "inner edges of the rigid box; upright: of the loose packing [m]",
-           Range::positive());
-  declare_distribution(file, "Sand", distribution);
-  file.add("Sand", "solid fraction", solid_fraction, "of the loose packing",
-           {.lowest = 0, .highest = 0.6, .lowest_included = false});
-  file.add("Sand", "seed", seed, "of all random numbers");
-  file.add("Sand/Settling", "gravity", settling_gravity, "what the packing settles under [m/s2]", Range::positive());
-  file.add("Sand/Settling", "time", settling_time, "[s]", Range::positive());
-  file.add("Sand/Settling", "time step", settling_step, "[s]", Range::positive());
-  file.add("Sand/Settling", "damping ratio", settling_damping, "dashpot at the contacts, share of critical damping",
-           Range::between(0, 10));
-}
-
 RubberBlockParameters::RubberBlockParameters()
 {
   simulation.grain() = {.young_modulus = 50e9, .poisson_ratio = 0.3, .density = 2550.};
@@ -141,10 +117,9 @@ void RubberBlockParameters::declare(ParameterFile &file)
 void RubberBlockParameters::validate() const
 {
   block.validate();
-  sand.distribution.validate();
+  sand.validate(simulation.grain());
   settling().validate();
   pulling().validate();
-  n_settling_steps();
   n_steps();
   const double way = speed * (pull_time - 0.5 * std::min(start_time, pull_time));
   if (start_offset + block.edges[0] + way > sand.box[0])
@@ -152,13 +127,7 @@ void RubberBlockParameters::validate() const
            " m; give a longer box, or a shorter Pull/time");
   if (block.edges[1] > sand.box[1])
     reject("Block/edges is ", block.edges[1], " m across the pull, wider than Sand/box, ", sand.box[1], " m");
-  // At an overlap of 1e-5 radii: no packing under load is softer.
-  const double limit = dem::stable_step_of_two_spheres(sand.distribution.smallest_half_axis, simulation.grain(), 1e-5);
-  for (const auto &[name, step] :
-       {std::pair("Pull/time step", simulation.time_step), std::pair("Sand/Settling/time step", sand.settling_step)})
-    if (step > limit)
-      reject(name, " is ", step, " s: it must stay below ", limit,
-             " s, the stable step of two of the smallest grains in contact");
+  sand.require_stable({"Pull/time step", simulation.time_step}, simulation.grain());
 }
 
 double RubberBlockParameters::mean_radius() const
@@ -180,11 +149,7 @@ dem::SimulationParameters RubberBlockParameters::pulling() const
 
 dem::SimulationParameters RubberBlockParameters::settling() const
 {
-  dem::SimulationParameters p = pulling();
-  p.gravity = {0., 0., -sand.settling_gravity};
-  p.time_step = sand.settling_step;
-  p.set_damping(sand.settling_damping);
-  return p;
+  return sand.settling(pulling());
 }
 
 std::int64_t RubberBlockParameters::n_steps() const
@@ -192,19 +157,14 @@ std::int64_t RubberBlockParameters::n_steps() const
   return steps_over({"Pull/loading time + holding time + time", end()}, {"Pull/time step", simulation.time_step});
 }
 
-std::int64_t RubberBlockParameters::n_settling_steps() const
-{
-  return steps_over({"Sand/Settling/time", sand.settling_time}, {"Sand/Settling/time step", sand.settling_step});
-}
-
 double RubberBlockParameters::pressure_at(const double time) const
 {
-  return pressure * smooth(time / loading_time);
+  return pressure * smooth_step(time / loading_time);
 }
 
 double RubberBlockParameters::speed_at(const double time) const
 {
-  return speed * smooth((time - pull_begin()) / start_time);
+  return speed * smooth_step((time - pull_begin()) / start_time);
 }
 
 } // namespace bergamo::driver

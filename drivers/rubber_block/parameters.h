@@ -1,10 +1,10 @@
 #pragma once
 
-#include "dem/packing/distribution.h"
 #include "dem/packing/space.h"
 #include "dem/simulation/simulation_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
+#include "drivers/common/sand_parameters.h"
 #include "fe_dealii/material/mooney_rivlin.h"
 
 #include <cstdint>
@@ -37,21 +37,6 @@ struct BlockParameters
   void validate() const;
 
   double top_area() const { return edges[0] * edges[1]; } ///< [m²]
-};
-
-/// How the sand is made: packed, and settled under a weight of its own.
-struct SandParameters
-{
-  Vec3 box{0.075, 0.02, 0.01425}; ///< inner edges of the rigid box; upright: of the loose packing [m]
-  dem::GrainDistribution distribution;
-  double solid_fraction = 0.5; ///< of the loose packing
-  std::uint64_t seed = 1;
-  double settling_gravity = 1000.; ///< [m/s²]
-  double settling_time = 4e-3;     ///< [s]
-  double settling_step = 2e-7;     ///< [s]
-  double settling_damping = 0.9;   ///< share of critical damping
-
-  void declare(ParameterFile &file);
 };
 
 /// Everything that steers a rubber block that is pressed on sand and pulled over it. SI units.
@@ -92,7 +77,6 @@ struct RubberBlockParameters
   double pull_begin() const { return loading_time + holding_time; } ///< since the block is there [s]
   double end() const { return pull_begin() + pull_time; }           ///< the same [s]
   std::int64_t n_steps() const;
-  std::int64_t n_settling_steps() const;
 
   double pressure_at(double time) const; ///< time since the block is there [s]; [Pa]
   double speed_at(double time) const;    ///< the same; [m/s]

@@ -1,5 +1,6 @@
 #include "drivers/rubber_block/pull.h"
 
+#include "coupling/model/energy_balance.h"
 #include "drivers/common/run/visit_models.h"
 #include "drivers/rubber_block/block.h"
 
@@ -13,11 +14,6 @@ namespace
 double sum_of(const PhaseTimes &times)
 {
   return times.neighbours + times.contacts + times.screening + times.searches + times.summation + times.motion;
-}
-
-double balance_of(const coupling::MoverEnergy &e)
-{
-  return e.kinetic + e.stored + e.lost - e.work;
 }
 
 } // namespace
@@ -66,7 +62,7 @@ void Pull::move()
 
 double Pull::energy_balance() const
 {
-  return balance_of(grains->energy()) + balance_of(block->energy()) - pressure_above->work();
+  return coupling::energy_balance(model) - pressure_above->work();
 }
 
 double Pull::work() const

@@ -1,4 +1,5 @@
 #include "dem/core/error.h"
+#include "dem/io/contacts_vtu.h"
 #include "dem/io/grain_points_vtu.h"
 #include "dem/io/grid_vtu.h"
 
@@ -80,4 +81,36 @@ TEST_CASE("grains are written as points with their diameters and fields")
   CHECK(file.array<std::uint8_t>("types") == std::vector<std::uint8_t>{1, 1});
   const GrainField wrong[] = {{"short", std::span(heights).first(1)}};
   CHECK_THROWS_WITH(write_grain_points_vtu(grains, wrong, folder / "grains.vtu"), Contains("'short'"));
+}
+
+TEST_CASE("contacts are written as lines between centres, and to walls, with their forces")
+{
+  Particles grains;
+  for (int i = 0; i < 3; ++i)
+    grains.add({Vec3::Ones(), 1., 1.}, 1., Vec3(i, 2. * i, 0.), Quaternion::Identity());
+  grains.id = {7, 5, 6};
+  std::vector<TouchingContact> contacts(2);
+  contacts[0].first = 0;
+  contacts[0].second = 2;
+  contacts[0].branch = Vec3(2., 4., 0.);
+  contacts[0].state.weight = 0.5;
+  contacts[0].state.forces = {Vec3(0., 0., 6.), 3.};
+  contacts[0].state.overlap = 0.25;
+  contacts[1].first = 1;
+  contacts[1].second = no_grain;
+  contacts[1].branch = Vec3(0., 0., -1.);
+  TemporaryFolder folder;
+  write_contacts_vtu(grains, contacts, folder / "contacts.vtu");
+  const VtuReader file(content_of(folder / "contacts.vtu"));
+  REQUIRE(file.n_points == 4);
+  REQUIRE(file.n_cells == 2);
+  CHECK(file.array<double>("Points") == std::vector<double>{0., 0., 0., 2., 4., 0., 1., 2., 0., 1., 2., -1.});
+  CHECK(file.array<std::int32_t>("connectivity") == std::vector<std::int32_t>{0, 1, 2, 3});
+  CHECK(file.array<std::int64_t>("offsets") == std::vector<std::int64_t>{2, 4});
+  CHECK(file.array<std::uint8_t>("types") == std::vector<std::uint8_t>{3, 3});
+  CHECK(file.array<std::int64_t>("first") == std::vector<std::int64_t>{7, 5});
+  CHECK(file.array<std::int64_t>("second") == std::vector<std::int64_t>{6, -1});
+  CHECK(file.array<float>("normal_force") == std::vector<float>{1.5f, 0.f});
+  CHECK(file.array<float>("tangential_force") == std::vector<float>{0.f, 0.f, 3.f, 0.f, 0.f, 0.f});
+  CHECK(file.array<float>("overlap") == std::vector<float>{0.25f, 0.f});
 }

@@ -52,6 +52,8 @@ TEST_CASE("rattlers are removed until none is left")
   const Particles particles = measured::unit_spheres(9);
   const CoordinationNumbers z = coordination_numbers(particles, cluster_with_chain());
   CHECK(z.mean == Approx(26. / 9.).epsilon(rounding));
+  // Numbers 4, 4, 4, 4, 5, 2, 2, 1 and 0: their squares add up to 98.
+  CHECK(z.deviation == Approx(std::sqrt(98. / 9. - 26. * 26. / 81.)).epsilon(rounding));
   CHECK(z.mechanical == Approx(25. / 7.).epsilon(rounding));
   CHECK(z.without_rattlers == 4.);
   CHECK(z.n_rattlers == 4);
@@ -109,6 +111,7 @@ TEST_CASE("an assembly without contacts has coordination numbers and fabric of z
 {
   const CoordinationNumbers z = coordination_numbers(measured::unit_spheres(3), {});
   CHECK(z.mean == 0.);
+  CHECK(z.deviation == 0.);
   CHECK(z.mechanical == 0.);
   CHECK(z.without_rattlers == 0.);
   CHECK(z.n_rattlers == 3);

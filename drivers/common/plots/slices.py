@@ -1,0 +1,42 @@
+"""What a plane cuts out of grains and surfaces, for the scripts that draw sections."""
+
+import numpy as np
+
+from picture import read_vtu
+
+
+def cut_at(path, y):
+    """The lines in which a plane y = const [m] cuts the cells of a file."""
+    from vtkmodules.vtkCommonDataModel import vtkPlane
+    from vtkmodules.vtkFiltersCore import vtkCutter
+    cutter, plane = vtkCutter(), vtkPlane()
+    plane.SetNormal(0, 1, 0)
+    plane.SetOrigin(0, y, 0)
+    cutter.SetInputData(read_vtu(path))
+    cutter.SetCutFunction(plane)
+    cutter.Update()
+    return cutter.GetOutput()
+
+
+def segments_of(cut):
+    """Ends of the lines of a cut, x and z, in mm: an array of [line, end, 2]."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    places = vtk_to_numpy(cut.GetPoints().GetData())[:, [0, 2]] * 1e3
+    return places[vtk_to_numpy(cut.GetLines().GetConnectivityArray()).reshape(-1, 2)]
+
+
+def slice_of(path, fields, y=0):
+    """Outlines of the grains in the plane, x and z in mm, and an array for each of the fields, in their order."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    cut = cut_at(path, y)
+    ends = segments_of(cut)
+    data = cut.GetCellData()
+    ids = vtk_to_numpy(data.GetArray("id"))
+    outlines, first_rows = [], []
+    order = np.argsort(ids, kind="stable")
+    for rows in np.split(order, np.flatnonzero(np.diff(ids[order])) + 1):
+        outline = ends[rows].reshape(-1, 2)
+        around = outline - outline.mean(axis=0)  # a convex grain's section is convex
+        outlines.append(outline[np.argsort(np.arctan2(around[:, 1], around[:, 0]))])
+        first_rows.append(rows[0])
+    return outlines, [vtk_to_numpy(data.GetArray(field))[first_rows] for field in fields]

@@ -1,0 +1,82 @@
+#include "drivers/common/run/settled_sand.h"
+
+#include "dem/loading/compression.h"
+#include "dem/measure/coordination.h"
+#include "dem/measure/extent.h"
+#include "dem/measure/solid_fraction.h"
+#include "dem/packing/pack_grains.h"
+#include "drivers/common/interrupt.h"
+#include "drivers/common/packing_target.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace bergamo::driver
+{
+namespace
+{
+
+constexpr std::int32_t lid = 5; // of box_walls()
+
+double mean_speed_of(const dem::Particles &grains)
+{
+  double sum = 0.;
+  for (const Vec3 &velocity : grains.velocity)
+    sum += velocity.squaredNorm();
+  return std::sqrt(sum / static_cast<double>(grains.size()));
+}
+
+} // namespace
+
+std::unique_ptr<dem::Simulation> pack_sand(const SandParameters &sand, const dem::Box &box,
+                                           const dem::SimulationParameters &settling)
+{
+  dem::PackingParameters packing;
+  packing.solid_fraction = sand.solid_fraction;
+  packing.density = settling.grain().density;
+  packing.tightening.is_stopped = interrupted;
+  dem::PackedGrains packed = dem::pack_grains(sand.distribution, box, packing, sand.seed);
+  if (interrupted()) // grains are too small
+    return nullptr;
+  require_target(packed, packing.solid_fraction, "Sand/solid fraction");
+  return std::make_unique<dem::Simulation>(settling, std::move(packed.particles), dem::box_walls(box));
+}
+
+bool settle_sand(Run &run, dem::Simulation &sand, const SandParameters &p)
+{
+  Stage stage = run.even_stage("settling", p.n_settling_steps(), p.settling_step);
+  stage.n_particles = static_cast<std::int64_t>(sand.particles.size());
+  stage.compute = [&] { sand.compute_forces(); };
+  stage.move = [&] { sand.integrate(); };
+  return run.advance(stage, {{every_steps(200), [&] { sand.check_finite(); }}});
+}
+
+void SettledSand::add_to(Summary &summary) const
+{
+  summary.set("sand_height_m", height, "m");
+  summary.set("sand_level_m", level, "m");
+  summary.set("sand_solid_fraction", solid_fraction);
+  summary.set("sand_coordination_number", coordination_number);
+  summary.set("sand_floor_share", floor_share);
+  summary.set("sand_mean_speed_m_s", mean_speed, "m/s");
+}
+
+SettledSand end_settling(dem::Simulation &sand, const SandParameters &p, const dem::SimulationParameters &after)
+{
+  SettledSand settled;
+  const dem::Particles &grains = sand.particles;
+  settled.height = dem::highest_point(grains);
+  settled.level = 2. * dem::centre_of_mass(grains)[2];
+  settled.solid_fraction = dem::solid_fraction(grains, p.box[0] * p.box[1] * settled.height);
+  settled.coordination_number = dem::mean_coordination(sand.contacts, grains.size());
+  const double weight = p.settling_gravity * std::accumulate(grains.mass.begin(), grains.mass.end(), 0.);
+  settled.floor_share = -sand.walls[bottom_wall].force[2] / weight;
+  settled.mean_speed = mean_speed_of(grains);
+  sand.rest();
+  sand.remove_wall(lid);
+  sand.change(after);
+  sand.reset_accounts();
+  return settled;
+}
+
+} // namespace bergamo::driver
