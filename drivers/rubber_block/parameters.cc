@@ -5,6 +5,7 @@
 #include "dem/motion/stable_step.h"
 #include "drivers/common/grain_parameters.h"
 #include "drivers/common/run/step_count.h"
+#include "drivers/common/smooth_start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,6 @@ namespace bergamo::driver
 {
 namespace
 {
-
-/// From 0 to 1, without a jump of the rate. @param share of the time
-double smooth(const double share)
-{
-  const double s = std::clamp(share, 0., 1.);
-  return s * s * (3. - 2. * s);
-}
 
 void declare_elastic(ParameterFile &file, const std::string &section, fe::ElasticParameters &elastic)
 {
@@ -199,12 +193,12 @@ std::int64_t RubberBlockParameters::n_settling_steps() const
 
 double RubberBlockParameters::pressure_at(const double time) const
 {
-  return pressure * smooth(time / loading_time);
+  return pressure * smooth_start(time / loading_time);
 }
 
 double RubberBlockParameters::speed_at(const double time) const
 {
-  return speed * smooth((time - pull_begin()) / start_time);
+  return speed * smooth_start((time - pull_begin()) / start_time);
 }
 
 } // namespace bergamo::driver

@@ -4,7 +4,7 @@
 #include "coupling/adapter/surface_contact.h"
 #include "coupling/model/model.h"
 #include "drivers/common/run/state_visitor.h"
-#include "drivers/rubber_block/clocked_body.h"
+#include "drivers/common/run/clocked_body.h"
 #include "drivers/rubber_block/contact_pressure.h"
 #include "drivers/rubber_block/parameters.h"
 #include "drivers/rubber_block/top_pressure.h"
