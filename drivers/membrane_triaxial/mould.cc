@@ -3,6 +3,7 @@
 #include "coupling/adapter/touched_faces.h"
 #include "dem/core/error.h"
 #include "dem/loading/compression.h"
+#include "dem/measure/solid_fraction.h"
 #include "drivers/common/interrupt.h"
 #include "drivers/common/packing_target.h"
 #include "drivers/common/run/visit_models.h"
@@ -115,11 +116,12 @@ void Mould::compute()
 void Mould::look()
 {
   const MouldParameters &p = parameters.mould;
-  const double on_plates = pressure_on_plates(), on_side = pressure_on_side();
+  on_plates = pressure_on_plates();
+  on_side = pressure_on_side();
   const auto holds = [&](const double pressure)
   { return std::abs(pressure - p.pressure) < p.pressure_tolerance * p.pressure; };
-  const double unbalance = holds(on_plates) && holds(on_side) ? dem::unbalanced_force(*grains) : 1.;
-  n_looks_passed = unbalance < p.force_tolerance ? n_looks_passed + 1. : 0.;
+  unbalance = dem::unbalanced_force(*grains);
+  n_looks_passed = holds(on_plates) && holds(on_side) && unbalance < p.force_tolerance ? n_looks_passed + 1. : 0.;
   if (!is_finished() && time() > p.longest_time)
   {
     std::ostringstream message;
@@ -128,6 +130,22 @@ void Mould::look()
             << "; allow more time, larger tolerances or a smaller largest rate";
     throw RunError(message.str());
   }
+}
+
+Table Mould::table() const
+{
+  const auto volume = [this]
+  {
+    const auto [radius, height] = prism();
+    return section_of_unit_prism(parameters.membrane) * radius * radius * height;
+  };
+  return {{{"time_s", [this] { return time(); }},
+           {"radius_m", [this] { return prism().radius; }},
+           {"height_m", [this] { return prism().height; }},
+           {"plate_pressure_Pa", [this] { return on_plates; }},
+           {"side_pressure_Pa", [this] { return on_side; }},
+           {"unbalanced_force", [this] { return unbalance; }},
+           {"solid_fraction", [this, volume] { return dem::solid_fraction(grains->particles, volume()); }}}};
 }
 
 std::unique_ptr<dem::Simulation> Mould::take()

@@ -3,6 +3,7 @@
 #include "dem/loading/piston.h"
 #include "dem/simulation/simulation.h"
 #include "drivers/common/run/state_visitor.h"
+#include "drivers/common/run/table.h"
 #include "drivers/membrane_triaxial/membrane.h"
 
 #include <memory>
@@ -39,6 +40,8 @@ public:
   void look();
   bool is_finished() const { return n_looks_passed >= 5.; }
 
+  Table table() const; ///< rows of mould.csv, as of the last look; must not outlive the mould
+
   Prism prism() const;
   dem::Simulation &sample() { return *grains; }
   double time() const { return grains->time; } ///< [s]
@@ -54,7 +57,8 @@ private:
 
   const MembraneTriaxialParameters &parameters;
   std::unique_ptr<dem::Simulation> grains;
-  double n_looks_passed = 0.; // in a row
+  double n_looks_passed = 0.;                          // in a row
+  double on_plates = 0., on_side = 0., unbalance = 1.; // of the last look [Pa, Pa, -]
 };
 
 /// Mean force of the plates on the grains, inwards [N].

@@ -32,11 +32,11 @@ struct MouldParameters
   double diameter = 0.042, height = 0.084; ///< of the loose packing [m]
   double solid_fraction = 0.45;            ///< of the loose packing
   std::uint64_t seed = 1;
-  double friction = 0.16;    ///< between grains while it shrinks; its walls are smooth
+  double friction = 0.;      ///< between grains while it shrinks; its walls are smooth
   double pressure = 1e3;     ///< at which it ends [Pa]
   double largest_rate = 20.; ///< of its shrinking [1/s]
-  double pressure_tolerance = 0.02;
-  double force_tolerance = 0.05; ///< mean unbalanced over mean contact force at its end
+  double pressure_tolerance = 0.1;
+  double force_tolerance = 0.25; ///< mean unbalanced over mean contact force at its end
   double time_step = 2e-6;       ///< [s]
   double longest_time = 1.;      ///< [s]
 

@@ -20,9 +20,10 @@ constexpr std::int64_t steps_between_looks = 50; // at whether all rests
 
 MembraneTriaxialRun::MembraneTriaxialRun(const MembraneTriaxialParameters &p, const CommandLine &command_line,
                                          const std::string &parameter_text)
-    : parameters(p),
-      run(command_line,
-          {"triaxial test in a membrane", parameter_text, p.output.snapshot_interval, {"loading.csv", "shape.csv"}}),
+    : parameters(p), run(command_line, {"triaxial test in a membrane",
+                                        parameter_text,
+                                        p.output.snapshot_interval,
+                                        {"mould.csv", "loading.csv", "shape.csv"}}),
       mould(p), pictures(run.folder().path())
 {
   run.keep([this](StateVisitor &v) { visit(v); });
@@ -80,8 +81,12 @@ bool MembraneTriaxialRun::make_sample()
   stage.fraction = [&] { return std::min(0.99, mould.time() / parameters.mould.longest_time); };
   stage.compute = [&] { mould.compute(); };
   stage.move = [&] { mould.move(); };
-  if (!run.advance(stage, {{every_steps(steps_between_looks), [&] { mould.look(); }},
-                           {every_steps(200), [&] { mould.sample().check_finite(); }}}))
+  const Table table = mould.table();
+  History rows = run.history(table, run.folder().file("mould.csv"));
+  if (!run.advance(stage,
+                   {{every_steps(steps_between_looks), [&] { mould.look(); }},
+                    {either(every_steps(10 * steps_between_looks), at_the_end()), [&] { rows.append(table.row()); }},
+                    {every_steps(200), [&] { mould.sample().check_finite(); }}}))
     return false;
   prism = mould.prism();
   cell = std::make_unique<TriaxialCell>(parameters, mould.take(), prism);

@@ -21,7 +21,7 @@ PRESSURE, GRAVITY, DENSITY = 100e3, 9.81, 2550
 N_AROUND, N_HIGH = 12, 6
 
 # Fewer beads, for what needs no sample.
-SHORT = ["Mould/diameter=0.018", "Mould/height=0.02", "Mould/solid fraction=0.4", "Mould/force tolerance=0.5",
+SHORT = ["Mould/diameter=0.018", "Mould/height=0.02", "Mould/solid fraction=0.4", "Mould/force tolerance=0.8",
          "Test/loading time=2e-4", "Test/force tolerance=0.5", "Test/pressure tolerance=0.1", "Test/axial strain=5e-3",
          "Test/start strain=1e-3", "Output/samples=100"]
 OF_THE_CLOCK = ("wall", "particle", "share", "core", "threads")  # how figures begin that are no results
@@ -72,7 +72,7 @@ class Results(Case):
     def check_compression(self, figures, rows):
         """The plates go as far as they are told, both bear the same but for the sample's weight and its motion, and what
         they bear is the mean stress of the grains."""
-        self.assertAlmostEqual(rows[-1]["axial_strain"], 0.05, delta=1e-5)
+        self.assertAlmostEqual(rows[-1]["axial_strain"], 0.04, delta=1e-5)
         late = [row for row in rows if row["axial_strain"] > 0.01]
         for row in late:
             self.assertEqual(row["lateral_pressure_Pa"], PRESSURE)
