@@ -18,14 +18,19 @@ namespace bergamo::driver
 namespace
 {
 
-/// Sum of the impedances of all contacts with a plate, or with the side for no plate [N s/m].
-double impedance_on(const dem::Simulation &sample, const std::int32_t plate)
+/// Sums of the impedances of the contacts [N s/m].
+struct Impedances
 {
-  double sum = 0.;
+  double plate = 0.; ///< of one, the mean
+  double side = 0.;
+};
+
+Impedances impedances_of(const dem::Simulation &sample)
+{
+  Impedances sum;
   for (const dem::TouchingContact &contact : sample.contacts.touching_walls(sample.particles))
-    if (contact.wall == plate || (plate < 0 && contact.feature >= 0))
-      sum += dem::impedance_of(contact);
-  return sum;
+    (contact.wall < 0 ? sum.side : sum.plate) += dem::impedance_of(contact);
+  return {0.5 * sum.plate, sum.side};
 }
 
 std::vector<dem::PlaneWall> plates_at(const double height)
@@ -97,16 +102,18 @@ void Mould::compute()
   const auto [radius, height] = prism();
   const double section = section_of_unit_prism(parameters.membrane) * radius * radius, dt = p.time_step;
   const double most = dem::speed_of_pressure(p.pressure, parameters.simulation.grain().density);
-  const dem::Piston upright = plate_piston(*grains, (p.pressure - pressure_on_plates()) * section,
-                                           std::min(0.5 * height * p.largest_rate, most));
+  const Impedances impedance = impedances_of(*grains);
+  const double mass = dem::piston_mass(grains->particles);
+  const dem::Piston upright{mass, (p.pressure - pressure_on_plates()) * section, impedance.plate,
+                            std::min(0.5 * height * p.largest_rate, most)};
   const double speed = upright.speed_after(grains->walls[lower_plate].velocity[2], dt);
   set_plates(*grains, speed);
 
   dem::Surface &sides = grains->surfaces[side];
   const Vec3 &first = sides.node[0];
   const double last = -sides.velocity[0].head<2>().dot(first.head<2>()) / radius;
-  const dem::Piston across{2. * upright.mass, (p.pressure - pressure_on_side()) * 2. * section * height / radius,
-                           impedance_on(*grains, dem::no_grain), std::min(radius * p.largest_rate, most)};
+  const dem::Piston across{2. * mass, (p.pressure - pressure_on_side()) * 2. * section * height / radius,
+                           impedance.side, std::min(radius * p.largest_rate, most)};
   const double rate = across.speed_after(last, dt) / radius, rate_upright = 2. * speed / height;
   for (std::size_t n = 0; n < sides.node.size(); ++n)
     sides.velocity[n] = -Vec3(rate, rate, rate_upright).cwiseProduct(sides.node[n]);
@@ -178,8 +185,7 @@ void set_plates(dem::Simulation &sample, const double speed)
 
 dem::Piston plate_piston(const dem::Simulation &sample, const double push, const double fastest)
 {
-  const double impedance = 0.5 * (impedance_on(sample, lower_plate) + impedance_on(sample, upper_plate));
-  return {dem::piston_mass(sample.particles), push, impedance, fastest};
+  return {dem::piston_mass(sample.particles), push, impedances_of(sample).plate, fastest};
 }
 
 } // namespace bergamo::driver
