@@ -63,18 +63,32 @@ MembraneTriaxialParameters::MembraneTriaxialParameters()
   output.n_samples = 400;
 }
 
-void MembraneTriaxialParameters::declare(ParameterFile &file)
+void MembraneTriaxialParameters::declare_sample(ParameterFile &file)
 {
   sizes.declare(file);
   declare_grains(file, simulation);
+  mould.declare(file);
+  membrane.declare(file);
+}
+
+std::string MembraneTriaxialParameters::sample_text() const
+{
+  MembraneTriaxialParameters own = *this;
+  ParameterFile file("A sample for a triaxial test in a membrane");
+  own.declare_sample(file);
+  return file.resolved_text();
+}
+
+void MembraneTriaxialParameters::declare(ParameterFile &file)
+{
+  declare_sample(file);
+  file.add("Mould", "sample", sample,
+           "sample.h5 of an earlier run's folder with the same grains, mould and membrane; empty: one is made");
   file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient between grains",
            Range::non_negative());
   file.add("Grains", "plate friction", simulation.with_walls().friction, "the same between grains and the rigid plates",
            Range::non_negative());
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
-  mould.declare(file);
-  membrane.declare(file);
-
   file.add("Test", "gravity", gravity, "once the mould is gone [m/s2]", Range::non_negative());
   file.add("Test", "lateral pressure", pressure, "of the air around the membrane [Pa]", Range::positive());
   file.add("Test", "loading time", loading_time, "over which it grows from that of the mould, smoothly [s]",

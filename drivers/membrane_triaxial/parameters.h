@@ -8,6 +8,7 @@
 #include "fe_dealii/material/ogden.h"
 
 #include <cstdint>
+#include <string>
 
 namespace bergamo::driver
 {
@@ -53,6 +54,8 @@ struct MembraneTriaxialParameters
   MouldParameters mould;
   MembraneParameters membrane;
 
+  std::string sample; ///< file of a sample that an earlier run has made, or empty
+
   double gravity = 9.81;            ///< [m/s²]
   double pressure = 100e3;          ///< of the air around the membrane [Pa]
   double loading_time = 5e-3;       ///< over which it grows from that of the mould [s]
@@ -73,6 +76,9 @@ struct MembraneTriaxialParameters
   dem::SimulationParameters shrinking() const; ///< both with the membrane's material, see membrane_material
   dem::SimulationParameters testing() const;
 
+  /// All that a sample depends on, as a parameter file has it.
+  std::string sample_text() const;
+
   double pressure_at(double time) const; ///< time since the loading began [s]; [Pa]
 
   /// Of the compression. @{
@@ -83,6 +89,7 @@ struct MembraneTriaxialParameters
   /// @}
 
 private:
+  void declare_sample(ParameterFile &file);
   void require_stable(double time_step, const char *name) const;
 };
 

@@ -14,6 +14,7 @@ namespace bergamo::driver
 namespace
 {
 
+constexpr const char *sample_file = "sample.h5";
 constexpr std::int64_t steps_between_looks = 50; // at whether all rests
 
 } // namespace
@@ -23,7 +24,7 @@ MembraneTriaxialRun::MembraneTriaxialRun(const MembraneTriaxialParameters &p, co
     : parameters(p), run(command_line, {"triaxial test in a membrane",
                                         parameter_text,
                                         p.output.snapshot_interval,
-                                        {"mould.csv", "loading.csv", "shape.csv"}}),
+                                        {"mould.csv", sample_file, "loading.csv", "shape.csv"}}),
       mould(p), pictures(run.folder().path())
 {
   run.keep([this](StateVisitor &v) { visit(v); });
@@ -56,16 +57,60 @@ void MembraneTriaxialRun::visit(StateVisitor &visit)
 
 int MembraneTriaxialRun::go()
 {
+  if (part == Part::filling && !parameters.sample.empty())
+    read_sample();
   run.open();
   return make_sample() && load() && compress()
              ? run.finish(summary(), {"membrane_triaxial/plot.py", "membrane_triaxial/plot_shape.py"})
              : run.stop();
 }
 
+void MembraneTriaxialRun::read_sample()
+{
+  std::unique_ptr<dem::Simulation> grains;
+  sample_in(parameters.sample).read([&](StateVisitor &v) { visit_sample(v, grains); });
+  begin_test(std::move(grains));
+}
+
 bool MembraneTriaxialRun::make_sample()
 {
   if (part > Part::shrinking)
     return true;
+  if (!fill_mould())
+    return false;
+  prism = mould.prism();
+  std::unique_ptr<dem::Simulation> grains = mould.take();
+  sample_in(run.folder().file(sample_file)).write([&](StateVisitor &v) { visit_sample(v, grains); });
+  begin_test(std::move(grains));
+  return true;
+}
+
+Snapshot MembraneTriaxialRun::sample_in(const std::filesystem::path &path) const
+{
+  return Snapshot(path, "sample in a mould", parameters.sample_text());
+}
+
+void MembraneTriaxialRun::begin_test(std::unique_ptr<dem::Simulation> grains)
+{
+  cell = std::make_unique<TriaxialCell>(parameters, std::move(grains), prism);
+  grain = dem::mean_grain(cell->sample().particles);
+  begin(Part::loading);
+}
+
+/// What another test needs of it.
+void MembraneTriaxialRun::visit_sample(StateVisitor &visit, std::unique_ptr<dem::Simulation> &grains)
+{
+  visit("prism/radius", prism.radius);
+  visit("prism/height", prism.height);
+  if (auto read = visit_grains(visit, grains.get(), parameters.testing()))
+  {
+    grains = std::move(read);
+    grains->change(parameters.testing()); // friction, weight and step are those of the other test
+  }
+}
+
+bool MembraneTriaxialRun::fill_mould()
+{
   if (part == Part::filling)
   {
     run.write_snapshot(); // packing takes long, and may be interrupted
@@ -83,16 +128,10 @@ bool MembraneTriaxialRun::make_sample()
   stage.move = [&] { mould.move(); };
   const Table table = mould.table();
   History rows = run.history(table, run.folder().file("mould.csv"));
-  if (!run.advance(stage,
-                   {{every_steps(steps_between_looks), [&] { mould.look(); }},
-                    {either(every_steps(10 * steps_between_looks), at_the_end()), [&] { rows.append(table.row()); }},
-                    {every_steps(200), [&] { mould.sample().check_finite(); }}}))
-    return false;
-  prism = mould.prism();
-  cell = std::make_unique<TriaxialCell>(parameters, mould.take(), prism);
-  grain = dem::mean_grain(cell->sample().particles);
-  begin(Part::loading);
-  return true;
+  return run.advance(stage,
+                     {{every_steps(steps_between_looks), [&] { mould.look(); }},
+                      {either(every_steps(10 * steps_between_looks), at_the_end()), [&] { rows.append(table.row()); }},
+                      {every_steps(200), [&] { mould.sample().check_finite(); }}});
 }
 
 void MembraneTriaxialRun::begin(const Part next)

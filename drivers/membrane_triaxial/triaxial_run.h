@@ -33,6 +33,11 @@ private:
 
   void visit(StateVisitor &visit);
   bool make_sample();
+  bool fill_mould();
+  void read_sample(); // from a file, before any work
+  Snapshot sample_in(const std::filesystem::path &path) const;
+  void begin_test(std::unique_ptr<dem::Simulation> grains);
+  void visit_sample(StateVisitor &visit, std::unique_ptr<dem::Simulation> &grains);
   bool load();
   bool compress();
   Stage stage_of(const std::string &name, std::int64_t n_steps); // of the test

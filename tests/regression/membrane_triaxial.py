@@ -102,11 +102,17 @@ class Results(Case):
         late = [row["stress_ratio"] for row in self.table("smooth") if row["axial_strain"] > 0.01]
         self.assertLess(sum(late) / len(late), 1.5)
 
-    def test_threads(self):
-        for threads in ("1", "2"):
-            self.figures(threads, SHORT, "--threads", threads)
-        for file in ("loading.csv", "history.csv", "shape.csv"):
-            self.assertEqual(self.table("1", file), self.table("2", file))
+    def test_threads_and_samples(self):
+        """The same on two threads, and in a test that begins from the other's sample."""
+        self.figures("whole", SHORT, "--threads", "1")
+        self.figures("threads", SHORT, "--threads", "2")
+        sample = f"Mould/sample={self.tmp / 'whole' / 'sample.h5'}"
+        self.figures("sample", [*SHORT, sample])
+        for other in ("threads", "sample"):
+            for file in ("loading.csv", "history.csv", "shape.csv"):
+                self.assertEqual(self.table("whole", file), self.table(other, file))
+        self.assert_refused([*SHORT, sample, "Mould/friction=0.1"], "set friction", "0.1")
+        self.assert_refused([*SHORT, "Mould/sample=none.h5"], "none.h5", status=1)
 
 
 class Restart(Case):
