@@ -42,13 +42,13 @@ def draw_cells(axes, folder, last_strain):
         seen = strained & (strain <= last_strain)
         across = 0.5 * (history["stress_xx_Pa"] + history["stress_yy_Pa"])
         label = "periodic cell" if k == 0 else None
-        ratio.plot(strain[seen], (history["stress_zz_Pa"] / across)[seen], color="#777777", linewidth=0.8, label=label)
+        ratio.plot(strain[seen], history["stress_zz_Pa"][seen] / across[seen], color="#777777", linewidth=0.8, label=label)
         fraction.plot(strain[seen], history["solid_fraction"][seen], color="#777777", linewidth=0.8, label=label)
 
 
 def draw_energies(axes, history):
     start = {name: values - values[0] for name, values in history.items()}
-    put_in = start["energy_wall_work_J"] + start["work_rims_J"] + start["work_pressure_J"] + start["energy_gravity_work_J"]
+    put_in = start["work_plates_J"] + start["work_rims_J"] + start["work_pressure_J"] + start["energy_gravity_work_J"]
     strain = 100 * history["axial_strain"]
     axes.plot(strain, put_in * 1e3, color=COLOURS[6], label="work of plates, pressure and weight")
     for column, label, colour in (("energy_friction_loss_J", "friction", COLOURS[1]),

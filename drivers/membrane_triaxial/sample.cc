@@ -40,6 +40,7 @@ void CellSample::measure(const TriaxialCell &cell, const SampleStart &start, con
   grain_energy = sample.energy();
   membrane_energy = cell.membrane().energy();
   pressure_work = cell.pressure().work();
+  plate_work = sample.walls[lower_plate].work + sample.walls[upper_plate].work;
   residual.add(cell.energy_balance(), cell.work());
 }
 
@@ -66,6 +67,7 @@ Table CellSample::table() const
   table.add(columns_of(grain_energy));
   table.add({{"energy_membrane_kinetic_J", [this] { return membrane_energy.kinetic; }},
              {"energy_membrane_elastic_J", [this] { return membrane_energy.elastic; }},
+             {"work_plates_J", [this] { return plate_work; }},
              {"work_pressure_J", [this] { return pressure_work; }},
              {"work_rims_J", [this] { return membrane_energy.boundary_work; }},
              {"energy_residual_J", [this] { return residual.present(); }}});

@@ -43,7 +43,7 @@ public:
   dem::AssemblyMeasures grains;
   dem::GrainEnergy grain_energy;
   fe::BodyEnergy membrane_energy;
-  double pressure_work = 0.; ///< [J]
+  double pressure_work = 0., plate_work = 0.; ///< the latter on the grains alone [J]
   EnergyResidual residual;
 
   double stress_ratio() const { return axial_stress / pressure; } ///< as the laboratory has it
