@@ -16,17 +16,21 @@ MembraneParameters::MembraneParameters()
   rubber.density = 5000.;
 }
 
-void MembraneParameters::declare(ParameterFile &file)
+void MembraneParameters::declare_surface(ParameterFile &file)
 {
   file.add("Membrane", "elements around", n_around, "", Range::between(6, 1000));
   file.add("Membrane", "elements high", n_high, "", Range::between(2, 1000));
+  file.add("Membrane", "contact modulus", contact_modulus,
+           "Young's modulus of its skin in Hertz's law; grains sink into one as soft as rubber [Pa]",
+           Range::positive());
+}
+
+void MembraneParameters::declare_rubber(ParameterFile &file)
+{
   file.add("Membrane", "thickness", thickness, "where it is free of stress [m]", Range::positive());
   file.add("Membrane", "density", rubber.density, "more than rubber's allows longer steps [kg/m3]", Range::positive());
   file.add("Membrane", "moduli", std::span<double>(rubber.modulus), "mu of Ogden's three terms [Pa]");
   file.add("Membrane", "exponents", std::span<double>(rubber.exponent), "alpha of Ogden's three terms");
-  file.add("Membrane", "contact modulus", contact_modulus,
-           "Young's modulus of its skin in Hertz's law; grains sink into one as soft as rubber [Pa]",
-           Range::positive());
   file.add("Membrane", "friction", friction, "Coulomb's coefficient between grains and membrane",
            Range::non_negative());
 }
@@ -68,7 +72,7 @@ void MembraneTriaxialParameters::declare_sample(ParameterFile &file)
   sizes.declare(file);
   declare_grains(file, simulation);
   mould.declare(file);
-  membrane.declare(file);
+  membrane.declare_surface(file);
 }
 
 std::string MembraneTriaxialParameters::sample_text() const
@@ -82,8 +86,10 @@ std::string MembraneTriaxialParameters::sample_text() const
 void MembraneTriaxialParameters::declare(ParameterFile &file)
 {
   declare_sample(file);
+  membrane.declare_rubber(file);
   file.add("Mould", "sample", sample,
-           "sample.h5 of an earlier run's folder with the same grains, mould and membrane; empty: one is made");
+           "sample.h5 of an earlier run's folder with the same grains, mould and elements of the membrane; empty: one "
+           "is made");
   file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient between grains",
            Range::non_negative());
   file.add("Grains", "plate friction", simulation.with_walls().friction, "the same between grains and the rigid plates",

@@ -24,7 +24,8 @@ struct MembraneParameters
   double contact_modulus = 1e9; ///< of its skin in Hertz's law [Pa]
   double friction = 0.2;        ///< of grains on it
 
-  void declare(ParameterFile &file);
+  void declare_surface(ParameterFile &file); ///< what a sample in the mould has of it
+  void declare_rubber(ParameterFile &file);  ///< the rest
 };
 
 /// The rigid cylinder in which the sample is made: packed, and shrunk until the grains bear a pressure.
