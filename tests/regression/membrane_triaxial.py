@@ -21,7 +21,7 @@ PRESSURE, GRAVITY, DENSITY = 100e3, 9.81, 2550
 N_AROUND, N_HIGH = 12, 6
 
 # Fewer beads, for what needs no sample.
-SHORT = ["Mould/diameter=0.018", "Mould/height=0.02", "Mould/solid fraction=0.4", "Mould/force tolerance=0.8",
+SHORT = ["Mould/diameter=0.018", "Mould/height=0.02", "Mould/solid fraction=0.35", "Mould/force tolerance=0.8",
          "Test/loading time=2e-4", "Test/force tolerance=0.5", "Test/pressure tolerance=0.1", "Test/axial strain=5e-3",
          "Test/start strain=1e-3", "Output/samples=100"]
 OF_THE_CLOCK = ("wall", "particle", "share", "core", "threads")  # how figures begin that are no results
@@ -51,13 +51,14 @@ class Results(Case):
         self.assertLess(figures["energy_residual"], 1e-4)
 
     def check_loading(self, figures):
-        """Under the pressure alone the grains have it on all sides. Across, the rims, the membrane's stiffness and the
-        plates' friction, at most (2/3) 0.1 R/h, take some of it."""
+        """Under the pressure alone the grains have it on all sides. Across, the rims take up to half of that on the rows
+        beside them, and the plates' friction up to (2/3) 0.1 R/h."""
         first = self.table("run", "loading.csv")[0]
         self.assertAlmostEqual(first["grain_axial_stress_Pa"] / 1e3, 1, delta=0.15)  # of the mould
         self.assertAlmostEqual(first["grain_lateral_stress_Pa"] / 1e3, 1, delta=0.15)
-        self.assertAlmostEqual(figures["loaded_grain_axial_stress_over_pressure"], 1, delta=0.03)
-        self.assertAlmostEqual(figures["loaded_grain_lateral_stress_over_pressure"], 1, delta=0.08)
+        self.assertAlmostEqual(figures["loaded_grain_axial_stress_over_pressure"], 1, delta=0.06)
+        self.assertGreater(figures["loaded_grain_lateral_stress_over_pressure"], 1 - 1 / N_HIGH - 0.02)
+        self.assertLess(figures["loaded_grain_lateral_stress_over_pressure"], 1.03)
 
     def check_volume(self, figures, rows):
         """Where the membrane has taken the mould's place it is a prism; the beads' volume stays what it was."""
@@ -77,7 +78,7 @@ class Results(Case):
         for row in late:
             self.assertEqual(row["lateral_pressure_Pa"], PRESSURE)
         mean = lambda name: sum(row[name] for row in late) / len(late)
-        self.assertAlmostEqual(mean("axial_stress_Pa") / mean("grain_axial_stress_Pa"), 1, delta=0.05)
+        self.assertAlmostEqual(mean("axial_stress_Pa") / mean("grain_axial_stress_Pa"), 1, delta=0.08)
         axial_force = mean("axial_stress_Pa") * late[0]["volume_m3"] / late[0]["height_m"]
         self.assertLess(abs(mean("plate_force_difference_N")), 0.1 * axial_force)
         self.assertGreater(mean("stress_ratio"), 1.3)
@@ -91,7 +92,7 @@ class Results(Case):
             for rim in (1, N_HIGH + 1):
                 self.assertAlmostEqual(row[f"radius_{rim}_m"], figures["mould_diameter_m"] / 2, delta=1e-12)
         middle = f"radius_{N_HIGH // 2 + 1}_m"
-        self.assertGreater(shapes[-1][middle] / shapes[0][middle], 1.01)
+        self.assertGreater(shapes[-1][middle] / shapes[0][middle], 1.005)
         self.assertGreater(figures["final_middle_radius_over_rim"], 1)
 
     def test_smooth_beads(self):
