@@ -8,7 +8,6 @@
 #include "drivers/membrane_triaxial/mould.h"
 
 #include <memory>
-#include <optional>
 
 namespace bergamo::driver
 {

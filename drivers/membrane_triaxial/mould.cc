@@ -168,6 +168,9 @@ std::unique_ptr<dem::Simulation> Mould::take()
 void Mould::visit(StateVisitor &visit)
 {
   visit("mould/n_looks_passed", n_looks_passed);
+  visit("mould/on_plates", on_plates);
+  visit("mould/on_side", on_side);
+  visit("mould/unbalance", unbalance);
   if (auto read = visit_grains(visit, grains.get(), parameters.shrinking()))
     grains = std::move(read);
 }

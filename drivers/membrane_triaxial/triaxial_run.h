@@ -6,7 +6,6 @@
 #include "drivers/membrane_triaxial/sample.h"
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

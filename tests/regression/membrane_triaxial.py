@@ -130,7 +130,7 @@ class Restart(Case):
                       self.command(parts, SHORT, *options), send)
             options = [*SNAPSHOTS_BY_STEPS, "--restart"]
         self.check_success(self.run_driver(parts, SHORT, *options))
-        for file in ("loading.csv", "history.csv", "shape.csv"):
+        for file in ("mould.csv", "loading.csv", "history.csv", "shape.csv"):
             self.assertEqual((parts / file).read_text(), (self.tmp / "whole" / file).read_text())
         figures = json.loads((parts / "summary.json").read_text())
         for name in whole:
