@@ -28,7 +28,7 @@ def draw_test(axes, folder, colour, label):
     history = run_data.read_history(folder)
     strain = 100 * history["axial_strain"]
     ratio.plot(strain, history["stress_ratio"], color=colour, linewidth=1, label=label)
-    fraction.plot(strain, history["solid_fraction"], color=colour, label=label)
+    fraction.plot(strain, history["solid_fraction"], color=colour)
     return history
 
 
@@ -43,7 +43,7 @@ def draw_cells(axes, folder, last_strain):
         across = 0.5 * (history["stress_xx_Pa"] + history["stress_yy_Pa"])
         label = "periodic cell" if k == 0 else None
         ratio.plot(strain[seen], history["stress_zz_Pa"][seen] / across[seen], color="#777777", linewidth=0.8, label=label)
-        fraction.plot(strain[seen], history["solid_fraction"][seen], color="#777777", linewidth=0.8, label=label)
+        fraction.plot(strain[seen], history["solid_fraction"][seen], color="#777777", linewidth=0.8)
 
 
 def draw_energies(axes, history):
@@ -82,8 +82,8 @@ def main():
     ratio.set_ylabel("axial stress over lateral pressure")
     ratio.set_ylim(0.9, 3)
     fraction.set_ylabel("solid fraction")
-    for axes in (ratio, fraction):
-        axes.legend(fontsize=8, loc="best")
+    ratio.legend(fontsize=8, loc="upper right", ncols=2)
+    fraction.legend(fontsize=8, loc="best")
     draw_energies(energies, histories[0])
     ratio.set_title(run_data.title_of(folders[0]), loc="left")
     energies.set_xlabel("axial strain in %")
