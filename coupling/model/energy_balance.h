@@ -11,10 +11,7 @@ inline double energy_balance(const Model &model)
 {
   double sum = 0.;
   for (const auto &mover : model.movers())
-  {
-    const MoverEnergy e = mover->energy();
-    sum += e.kinetic + e.stored + e.lost - e.work;
-  }
+    sum += mover->energy().balance();
   return sum;
 }
 

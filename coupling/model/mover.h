@@ -13,6 +13,8 @@ struct MoverEnergy
   double stored = 0.; ///< in deformations and contacts
   double lost = 0.;   ///< by friction, damping and plastic flow since the start
   double work = 0.;   ///< of walls, of prescribed motions and of gravity since the start
+
+  double balance() const { return kinetic + stored + lost - work; } ///< constant but for what others do to it
 };
 
 /// A part of a model that moves by the leapfrog: grains, a body. Every mover keeps one protocol, one step being

@@ -14,6 +14,8 @@ struct PhaseTimes
   double searches = 0.;
   double summation = 0.;
   double motion = 0.;
+
+  double total() const { return neighbours + contacts + screening + searches + summation + motion; }
 };
 
 /// Laps between the phases.

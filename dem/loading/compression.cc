@@ -1,10 +1,10 @@
 #include "dem/loading/compression.h"
 
 #include "dem/core/error.h"
+#include "dem/loading/piston.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace bergamo::dem
@@ -46,30 +46,14 @@ Vec3 wall_pressure(const std::vector<PlaneWall> &walls)
 namespace
 {
 
-/// Sum of the impedances of each wall's contacts, sqrt(stiffness times mass) [N s/m].
+/// Sum of the impedances of each wall's contacts [N s/m].
 std::vector<double> wall_impedance(const Simulation &simulation)
 {
   std::vector<double> sum(simulation.walls.size(), 0.);
   for (const TouchingContact &contact : simulation.contacts.touching_walls(simulation.particles))
-  {
-    const ContactView &s = contact.state;
-    sum[contact.wall] += s.weight * std::sqrt(1.5 * s.stiffness.normal * std::sqrt(s.overlap) * s.reduced_mass);
-  }
+    if (contact.wall >= 0)
+      sum[contact.wall] += impedance_of(contact);
   return sum;
-}
-
-/// Mass of a piston: heavy beside the grains that touch it, so that no single one throws it back [kg].
-double piston_mass(const Particles &grains)
-{
-  constexpr double share = 0.2; // of the packing; 0.02 of 80 grains shakes, 0.05 does not
-  return share * std::accumulate(grains.mass.begin(), grains.mass.end(), 0.);
-}
-
-/// A wall that is faster throws the grains about with more than the pressure [m/s].
-double speed_of_pressure(const double pressure, const double density)
-{
-  constexpr double share = 0.5;
-  return share * std::sqrt(pressure / density);
 }
 
 } // namespace
@@ -93,7 +77,6 @@ Compression::Compression(const CompressionParameters &parameters) : p(parameters
 void Compression::step(Simulation &simulation)
 {
   constexpr std::int64_t check_interval = 50; // steps
-  constexpr double absorption = 0.2;          // of the contacts' impedance; 1 takes up every wave but creeps
 
   simulation.compute_forces();
   const double dt = simulation.parameters().time_step, mass = piston_mass(simulation.particles);
@@ -107,11 +90,9 @@ void Compression::step(Simulation &simulation)
     PlaneWall &low = simulation.walls[2 * d], &high = simulation.walls[2 * d + 1];
     const double miss = p.pressure - pressure[d];
     pressures_hold = pressures_hold && std::abs(miss) < p.pressure_tolerance * p.pressure;
-    const double push = miss * edges.prod() / edges[d];
-    const double dashpot = absorption * 0.5 * (impedance[2 * d] + impedance[2 * d + 1]);
-    const double fastest = std::min(0.5 * edges[d] * p.largest_rate, most);
-    const double speed = (mass * low.velocity[d] + push * dt) / (mass + dashpot * dt); // the dashpot at its end
-    low.velocity = std::clamp(speed, -fastest, fastest) * Vec3::Unit(d);
+    const Piston piston{mass, miss * edges.prod() / edges[d], 0.5 * (impedance[2 * d] + impedance[2 * d + 1]),
+                        std::min(0.5 * edges[d] * p.largest_rate, most)};
+    low.velocity = piston.speed_after(low.velocity[d], dt) * Vec3::Unit(d);
     high.velocity = -low.velocity;
   }
   if (simulation.n_steps % check_interval == 0)

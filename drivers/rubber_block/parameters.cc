@@ -3,6 +3,7 @@
 #include "dem/core/error.h"
 #include "dem/law/restitution.h"
 #include "drivers/common/grain_parameters.h"
+#include "drivers/common/run/step_count.h"
 #include "drivers/common/smooth_step.h"
 
 #include <algorithm>

@@ -8,18 +8,9 @@
 
 namespace bergamo::driver
 {
-namespace
-{
-
-double sum_of(const PhaseTimes &times)
-{
-  return times.neighbours + times.contacts + times.screening + times.searches + times.summation + times.motion;
-}
-
-} // namespace
 
 Pull::Pull(const RubberBlockParameters &p, std::unique_ptr<dem::Simulation> sand, const double height)
-    : parameters(p), step(p.simulation.time_step), seconds_of_settling(sum_of(sand->times))
+    : parameters(p), step(p.simulation.time_step), seconds_of_settling(sand->times.total())
 {
   const Vec3 corner(p.start_offset, 0.5 * (p.sand.box[1] - p.block.edges[1]), height);
   std::unique_ptr<fe::ExplicitBody> made = make_block(p.block, corner, p.gravity);
@@ -72,7 +63,7 @@ double Pull::work() const
 
 StepShares Pull::shares() const
 {
-  const double of_grains = (sum_of(sand().times) - seconds_of_settling) / seconds,
+  const double of_grains = (sand().times.total() - seconds_of_settling) / seconds,
                of_block = block->seconds() / seconds;
   return {of_grains, of_block, 1. - of_grains - of_block};
 }

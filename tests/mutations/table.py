@@ -17,6 +17,9 @@ TESTS = {
     "silo_discharge": ["/usr/bin/python3", "{tree}/tests/regression/silo_discharge.py",
                        "{build}/drivers/silo_discharge", "{tests}"],
     "hourglass": ["/usr/bin/python3", "{tree}/tests/regression/hourglass.py", "{build}/drivers/hourglass", "{tests}"],
+    "membrane_triaxial": ["/usr/bin/python3", "{tree}/tests/regression/membrane_triaxial.py",
+                          "{build}/drivers/membrane_triaxial", "{tests}"],
+    "unit_membrane": ["{build}/tests/unit/unit_membrane", "{tests}"],
     "rubber_block": ["/usr/bin/python3", "{tree}/tests/regression/rubber_block.py", "{build}/drivers/rubber_block",
                      "{tests}"],
     "penetration": ["/usr/bin/python3", "{tree}/tests/regression/penetration.py", "{build}/drivers/penetration", "{tests}"],
@@ -351,6 +354,18 @@ MUTATIONS = [
                ("discharge_record.cc", "last_passage = time;", "", "what is below the orifice*"),
                ("discharge_record.cc", "visit(\"discharge/masses\", masses_);", "", "a record goes on*"),
                ("measured_columns.cc", "s < loads.size() ?", "s <= loads.size() ?", "each surface has*")),
+    *in_folder(
+        "drivers/membrane_triaxial", "membrane_triaxial",
+        ("cell.cc", "rubber->body().set_velocity(upper, -plate_speed);", "", "Results.test_beads"),
+        ("cell.cc", "around->visit(visit);", "", "Restart"),
+        ("mould.cc", "-Vec3(rate, rate, rate_upright)", "-Vec3(rate, rate, 0.)", "Results.test_beads"),
+        ("triaxial_run.cc", "now.residual.visit(visit);", "", "Restart"),
+    ),
+    *in_folder(
+        "drivers/membrane_triaxial", "unit_membrane",
+        ("lateral_pressure.cc", "faces_.add_pressure(-pressure_", "faces_.add_pressure(pressure_", "a lateral*"),
+        ("membrane.cc", "height * rim_area / 3.", "height * rim_area / 2.", "the volume*"),
+    ),
     *in_folder(
         "drivers/rubber_block", "rubber_block",
         ("block.cc", " && cell->center()[2] < height", "", "Results.test_block"),
