@@ -49,6 +49,7 @@ struct SurfacePlace
 };
 
 /// Deeper than this share of its smallest half-axis a body touches nothing: features on its far side are that deep.
+/// Nor do places of negative index count that such deep ones give.
 inline constexpr double deepest_overlap = 0.5;
 
 /// A direction in which a body is apart from a feature.
@@ -133,6 +134,7 @@ private:
   bool is_beyond(std::int32_t edge, std::int32_t node);
   bool is_in_cone(std::int32_t node, const Foot &foot) const;
   bool is_beside_deep_places(std::int32_t node);
+  bool is_between_shallow_places(Feature feature, std::int32_t number);
   double least_half_axis() const { return std::min({body.shape.r1, body.shape.r2, body.shape.r3}); }
   int index_of_face(std::int32_t face);
   int index_of_line(std::int32_t edge);
