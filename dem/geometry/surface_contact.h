@@ -52,9 +52,9 @@ struct SurfacePlace
 /// Nor do places of negative index count that such deep ones give.
 inline constexpr double deepest_overlap = 0.5;
 
-/// A body that touches nothing of a surface that bends cannot be deeper than this share in it a step later, unless it
-/// was too deep to be touched: then it is not until it has come off so far. A force that began at the deepest overlap
-/// would throw both.
+/// In a surface that bends a body is never at once deeper than this share, unless it comes from a contact about as deep
+/// or was too deep to be touched: then it is not until it has come off so far. A force that began at the deepest
+/// overlap would throw both.
 inline constexpr double deepest_begin = 0.1;
 
 /// A direction in which a body is apart from a feature.
@@ -82,7 +82,7 @@ public:
   /// The place at a feature, if the body touches it there: its centre is in front, and it is not as deep as that.
   std::optional<SurfacePlace> place_at(Feature feature, std::int32_t number);
 
-  /// Whether a body that touched nothing before may begin to touch there, see deepest_begin.
+  /// Whether a body that comes from no other contact may begin to touch there, see deepest_begin.
   bool may_begin(const SurfacePlace &place) const { return place.overlap <= deepest_begin * least_half_axis(); }
 
   /// Overlap with the plane of a face, the line of an edge or a vertex, whether its place is there or not [m].

@@ -291,7 +291,8 @@ MUTATIONS = [
                ("surface_contact.cc", "if (index == 0 || (index < 0 && !is_between_shallow_places(feature, number)))",
                 "if (index == 0)", "a valley whose faces*,crumpled surfaces press*")),
     *in_folder("dem/force/kinds", "verification_dem",
-               ("grain_surface.cc", "!look.may_begin(*place)", "false", "what is too deep in a moving surface*")),
+               ("grain_surface.cc", "!may_begin(*place, look, f.surface, search, context)", "false",
+                "what is too deep in a moving surface*")),
     *in_folder(
         "drivers/beam_impact", "beam_impact",
         ("beam_theory.cc", "then[3] = (shear - bending * k * k * now[2])", "then[3] = (shear - k * k * now[2])",

@@ -5,6 +5,7 @@
 #include "dem/force/kinds/feature_motion.h"
 #include "dem/force/searched_contact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -67,14 +68,24 @@ std::optional<SurfaceContactState<double>> taken_over(const ContactSearch &searc
   return found;
 }
 
-/// Whether a part touches nothing of a surface, at the step before.
-bool touches_nothing_of(const std::int32_t surface, const ContactSearch &search,
-                        const SearchContext<GrainSurface> &context)
+/// Overlap of a part's deepest contact with a surface, at the step before; 0 where it touches nothing of it [m].
+double deepest_contact_with(const std::int32_t surface, const ContactSearch &search,
+                            const SearchContext<GrainSurface> &context)
 {
+  double deepest = 0.;
   for (auto pair = context.list.row[search.first_part]; pair < context.list.row[search.first_part + 1]; ++pair)
     if (context.slot[pair] >= 0 && feature_of(context.scene.surfaces, context.list.second[pair]).surface == surface)
-      return false;
-  return true;
+      deepest = std::max(deepest, context.store.get(context.slot[pair]).overlap);
+  return deepest;
+}
+
+/// Whether a part may touch at a place at once: it is hardly deep there, or about as deep as at another of the surface,
+/// which it has come from.
+bool may_begin(const SurfacePlace &place, const SurfaceLook &look, const std::int32_t surface,
+               const ContactSearch &search, const SearchContext<GrainSurface> &context)
+{
+  constexpr double depth_range = 2.;
+  return look.may_begin(place) || place.overlap <= depth_range * deepest_contact_with(surface, search, context);
 }
 
 /// Whether a feature that the part reaches without a place there cannot get one before a contact of the same part is
@@ -182,8 +193,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
     SurfaceLook &look = seen->look;
     std::optional<SurfacePlace> place = look.place_at(f.feature, f.number);
     const bool keeps_shape = surface.is_at_rest() || surface.is_rigid;
-    if (place && search.slot < 0 && !keeps_shape && !look.may_begin(*place) &&
-        touches_nothing_of(f.surface, search, context))
+    if (place && search.slot < 0 && !keeps_shape && !may_begin(*place, look, f.surface, search, context))
       place.reset();
     search.is_touching = place.has_value();
     if (!place)
