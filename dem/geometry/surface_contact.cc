@@ -251,6 +251,24 @@ bool SurfaceLook::is_beside_deep_places(const std::int32_t node)
   return true;
 }
 
+/// Whether all places that a place of negative index is taken from, those of the infinite faces and edges around it,
+/// are shallow enough to be touched. They are deeper than it is: alone it would pull the body in, ever more.
+bool SurfaceLook::is_between_shallow_places(const Feature feature, const std::int32_t number)
+{
+  const SurfaceTopology &t = surface.topology;
+  const double deepest = deepest_overlap * least_half_axis() + surface.offset;
+  const auto is_shallow = [&](const std::int32_t face) { return on_face(face).foot.overlap <= deepest; };
+  if (feature == Feature::edge)
+    return is_shallow(t.edge[number].left) && is_shallow(t.edge[number].right);
+  for (const auto &[f, place] : t.corners_of(number))
+    if (is_inside(f, t.edge_of[f][place]) && is_inside(f, t.edge_of[f][(place + 2) % 3]) && !is_shallow(f))
+      return false;
+  for (const std::int32_t e : t.edges_of(number))
+    if (index_of_line(e) > 0 && is_beyond(e, number) && on_edge(e).foot.overlap > deepest)
+      return false;
+  return true;
+}
+
 /// The cone of normals of a vertex lies between those of its faces and edges, and a body may have several least depths
 /// at a point: searches start from all of these normals and from the middle of the body.
 SurfaceLook::Foot SurfaceLook::foot_on_vertex(const std::int32_t node)
@@ -400,7 +418,7 @@ std::optional<SurfacePlace> SurfaceLook::place_at(const Feature feature, const s
   int index = index_of(feature, number);
   if (index == 0 && feature == Feature::vertex && is_beside_deep_places(number))
     index = is_in_cone(number, foot_on_vertex(number));
-  if (index == 0)
+  if (index == 0 || (index < 0 && !is_between_shallow_places(feature, number)))
     return {};
   const std::int32_t node = feature == Feature::face   ? t.triangle[number][0]
                             : feature == Feature::edge ? t.edge[number].from

@@ -49,7 +49,13 @@ struct SurfacePlace
 };
 
 /// Deeper than this share of its smallest half-axis a body touches nothing: features on its far side are that deep.
+/// Nor do places of negative index count that such deep ones give.
 inline constexpr double deepest_overlap = 0.5;
+
+/// In a surface that bends a body is never at once deeper than this share, unless it comes from a contact about as deep
+/// or was too deep to be touched: then it is not until it has come off so far. A force that began at the deepest
+/// overlap would throw both.
+inline constexpr double deepest_begin = 0.1;
 
 /// A direction in which a body is apart from a feature.
 struct SeparatingDirection
@@ -75,6 +81,9 @@ public:
 
   /// The place at a feature, if the body touches it there: its centre is in front, and it is not as deep as that.
   std::optional<SurfacePlace> place_at(Feature feature, std::int32_t number);
+
+  /// Whether a body that comes from no other contact may begin to touch there, see deepest_begin.
+  bool may_begin(const SurfacePlace &place) const { return place.overlap <= deepest_begin * least_half_axis(); }
 
   /// Overlap with the plane of a face, the line of an edge or a vertex, whether its place is there or not [m].
   double overlap_at(Feature feature, std::int32_t number) { return foot_on(feature, number).overlap; }
@@ -133,6 +142,7 @@ private:
   bool is_beyond(std::int32_t edge, std::int32_t node);
   bool is_in_cone(std::int32_t node, const Foot &foot) const;
   bool is_beside_deep_places(std::int32_t node);
+  bool is_between_shallow_places(Feature feature, std::int32_t number);
   double least_half_axis() const { return std::min({body.shape.r1, body.shape.r2, body.shape.r3}); }
   int index_of_face(std::int32_t face);
   int index_of_line(std::int32_t edge);

@@ -291,6 +291,12 @@ MUTATIONS = [
         ("state/surface.cc", "tilting.dot(gradient) * normal", "-tilting.dot(gradient) * normal",
          "forces on the nodes of a body*"),
     ),
+    *in_folder("dem/geometry", "unit_dem",
+               ("surface_contact.cc", "if (index == 0 || (index < 0 && !is_between_shallow_places(feature, number)))",
+                "if (index == 0)", "a valley whose faces*,crumpled surfaces press*")),
+    *in_folder("dem/force/kinds", "verification_dem",
+               ("grain_surface.cc", "!may_begin(*place, look, f.surface, search, context)", "false",
+                "what is too deep in a moving surface*")),
     *in_folder(
         "drivers/beam_impact", "beam_impact",
         ("beam_theory.cc", "then[3] = (shear - bending * k * k * now[2])", "then[3] = (shear - k * k * now[2])",

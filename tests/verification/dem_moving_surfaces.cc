@@ -221,3 +221,41 @@ TEST_CASE("a box of 1200 triangles lets 100 grains rebound 50 times as a box of 
 {
   check_same(rebounds(100, 50));
 }
+
+TEST_CASE("what is too deep in a moving surface to be touched is touched again once it has come off")
+{
+  // A plate goes up into a grain that hardly moves, deeper than it is touched, and back; a wall of the same surface
+  // beside the grain, if there, is touched all the while, and hardly.
+  const bool has_wall = GENERATE(false, true);
+  const double radius = mm, speed = 10., wall = -0.99 * radius;
+  SimulationParameters p = soft_grains(0., 0.);
+  p.gravity.setZero();
+  Particles grains;
+  grains.add({Vec3::Constant(radius), 1., 1.}, 1e12, Vec3(0., 0., 1.001 * radius), Quaternion::Identity());
+  Simulation s(p, grains, {});
+  std::vector<Vec3> nodes{Vec3(-5., -5., 0.) * mm, Vec3(5., -5., 0.) * mm, Vec3(5., 5., 0.) * mm,
+                          Vec3(-5., 5., 0.) * mm};
+  std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}};
+  if (has_wall)
+  {
+    nodes.insert(nodes.end(), {Vec3(wall, -5. * mm, 5. * mm), Vec3(wall, -5. * mm, -5. * mm), Vec3(wall, 5. * mm, 0.)});
+    triangles.push_back({4, 5, 6});
+  }
+  s.add_surface({nodes, triangles});
+  int n_in = 0, n_out = 0; // steps that touch the plate, on either way
+  bool comes_back = false;
+  for (double overlap = -0.001; overlap > -0.01;)
+  {
+    comes_back = comes_back || overlap > 0.7;
+    s.surfaces[0].velocity.assign(nodes.size(), Vec3::Zero());
+    std::fill_n(s.surfaces[0].velocity.begin(), 4, Vec3(0., 0., comes_back ? -speed : speed));
+    s.step();
+    CAPTURE(overlap, comes_back, has_wall);
+    const bool is_touched = s.contacts.n_touching_walls() > has_wall;
+    CHECK(is_touched == (overlap > 0. && overlap <= (comes_back ? deepest_begin : deepest_overlap)));
+    (comes_back ? n_out : n_in) += is_touched;
+    overlap = 1. - (s.particles.position[0][2] - s.surfaces[0].node[0][2]) / radius;
+  }
+  CHECK(n_in > 20);
+  CHECK(n_out > 3);
+}

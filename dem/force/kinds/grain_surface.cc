@@ -5,6 +5,7 @@
 #include "dem/force/kinds/feature_motion.h"
 #include "dem/force/searched_contact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -167,6 +168,26 @@ std::optional<SurfaceContactState<double>> taken_over(const ContactSearch &searc
   return found;
 }
 
+/// Overlap of a part's deepest contact with a surface, at the step before; 0 where it touches nothing of it [m].
+double deepest_contact_with(const std::int32_t surface, const ContactSearch &search,
+                            const SearchContext<GrainSurface> &context)
+{
+  double deepest = 0.;
+  for (auto pair = context.list.row[search.first_part]; pair < context.list.row[search.first_part + 1]; ++pair)
+    if (context.slot[pair] >= 0 && feature_of(context.scene.surfaces, context.list.second[pair]).surface == surface)
+      deepest = std::max(deepest, context.store.get(context.slot[pair]).overlap);
+  return deepest;
+}
+
+/// Whether a part may touch at a place at once: it is hardly deep there, or about as deep as at another of the surface,
+/// which it has come from.
+bool may_begin(const SurfacePlace &place, const SurfaceLook &look, const std::int32_t surface,
+               const ContactSearch &search, const SearchContext<GrainSurface> &context)
+{
+  constexpr double depth_range = 2.;
+  return look.may_begin(place) || place.overlap <= depth_range * deepest_contact_with(surface, search, context);
+}
+
 /// Whether a feature that the part reaches without a place there cannot get one before a contact of the same part is
 /// searched: one on a face that leans no more against it than what is followed at once, so that the deepest points on
 /// both move alike, and where it lies further from any border than that contact may go.
@@ -247,7 +268,10 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
     if (!seen || !seen->is_of(search, surface))
       seen.emplace(search, scene.particles, surface);
     SurfaceLook &look = seen->look;
-    const std::optional<SurfacePlace> place = look.place_at(f.feature, f.number);
+    std::optional<SurfacePlace> place = look.place_at(f.feature, f.number);
+    const bool keeps_shape = surface.is_at_rest() || surface.is_rigid;
+    if (place && search.slot < 0 && !keeps_shape && !may_begin(*place, look, f.surface, search, context))
+      place.reset();
     search.is_touching = place.has_value();
     if (!place)
     {
@@ -281,7 +305,7 @@ void GrainSurface::search(const std::span<ContactSearch> searches, const SearchC
     // On a face the deepest point may go half the way to the nearest edge before it is looked at again.
     constexpr double share = 0.5;
     constexpr double not_followed = 1e100; // [1/m]
-    const bool is_followed = f.feature == Feature::face && (surface.is_at_rest() || surface.is_rigid);
+    const bool is_followed = f.feature == Feature::face && keeps_shape;
     const double way = is_followed ? share * look.distance_to_edges(f.number) : 0.;
     state.radii2.r11 = way > 0. ? std::min(1. / way, not_followed) : not_followed;
     if (!(way > 0.))
