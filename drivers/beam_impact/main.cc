@@ -1,3 +1,4 @@
+#include "dem/measure/contact_list.h"
 #include "drivers/beam_impact/beam_theory.h"
 #include "drivers/beam_impact/impact.h"
 #include "drivers/beam_impact/report.h"
@@ -7,6 +8,8 @@
 #include "drivers/common/run/run.h"
 #include "drivers/common/run/stable_step_watch.h"
 #include "drivers/common/run/step_count.h"
+
+#include <algorithm>
 
 namespace
 {
@@ -43,6 +46,7 @@ private:
   PictureSeries pictures;
   coupling::MoverEnergy of_sphere, of_beam; // of the last sample
   EnergyResidual residual;
+  double largest_overlap = 0.; // over the radius, of all samples
   StableStepWatch stable_step{"Output/step share"};
   const Table table{{{"time_s", [&] { return impact.time(); }},
                      {"sphere_displacement_m", [&] { return now(impact.way().sphere); }},
@@ -66,6 +70,7 @@ void ImpactRun::visit(StateVisitor &visit)
   impact.visit(visit);
   residual.visit(visit);
   stable_step.visit(visit);
+  visit("largest_overlap", largest_overlap);
   pictures.visit(visit);
 }
 
@@ -88,10 +93,10 @@ void ImpactRun::sample(History &history)
 {
   of_sphere = impact.energy_of_sphere();
   of_beam = impact.energy_of_beam();
-  double sum = 0.;
-  for (const coupling::MoverEnergy &e : {of_sphere, of_beam})
-    sum += e.kinetic + e.stored + e.lost - e.work;
-  residual.add(sum, 0.5 * parameters.sphere_mass() * parameters.velocity * parameters.velocity);
+  largest_overlap = std::max(
+      largest_overlap, dem::largest_relative_overlap(impact.simulation().contacts, impact.simulation().particles));
+  residual.add(of_sphere.balance() + of_beam.balance(),
+               0.5 * parameters.sphere_mass() * parameters.velocity * parameters.velocity);
   stable_step.look(impact.time_step(), impact.stable_step(), run.progress());
   history.append(table.row());
 }
@@ -104,6 +109,7 @@ Summary ImpactRun::summary() const
   figures.stable_time_step_s = stable_step.smallest();
   figures.energy_residual = residual.relative();
   figures.undecided_contacts = impact.simulation().contacts.n_undecided();
+  figures.max_overlap_over_radius = largest_overlap;
   Summary summary;
   summary.set("model", std::string("sphere on a beam"));
   summary.set(figures);

@@ -130,6 +130,7 @@ Summary BlockRun::summary() const
   own.stable_time_step_s = stable_step.smallest();
   own.energy_residual = residual.relative();
   own.undecided_contacts = grains.contacts.n_undecided();
+  own.max_overlap_over_radius = figures.largest_overlap();
   Summary summary;
   summary.set("model", std::string("rubber block on sand"));
   summary.set(own);

@@ -1,5 +1,7 @@
 #include "drivers/rubber_block/figures.h"
 
+#include "dem/measure/contact_list.h"
+
 #include <algorithm>
 
 namespace bergamo::driver
@@ -9,6 +11,7 @@ void BlockFigures::look(const Pull &pull, const RubberBlockParameters &p, const 
 {
   const Vec3 force = pull.contact_force();
   const ContactPressure &pressure = pull.contact_pressure();
+  overlap = std::max(overlap, dem::largest_relative_overlap(pull.sand().contacts, pull.sand().particles));
   if (time >= p.loading_time && time < p.pull_begin())
   {
     ++n_held;
@@ -52,6 +55,7 @@ void BlockFigures::visit(StateVisitor &visit)
   visit("figures/front", front);
   visit("figures/largest_front", largest_front);
   visit("figures/largest_face", largest_face);
+  visit("figures/overlap", overlap);
 }
 
 } // namespace bergamo::driver

@@ -17,6 +17,8 @@ public:
   /// @param top the pressure on the block's top [Pa]
   void add_to(Summary &summary, double top) const;
 
+  double largest_overlap() const { return overlap; } ///< over the radius, of all samples
+
   void visit(StateVisitor &visit);
 
 private:
@@ -26,6 +28,7 @@ private:
   double pulling = 0., mobilized = 0.;          // sums of the pulling force [N], and of the friction that is used up
   double front = 0.;                            // sum of the pressure on the foremost strip [Pa]
   double largest_front = 0., largest_face = 0.; // [Pa]
+  double overlap = 0.;                          // the largest over the radius
 };
 
 } // namespace bergamo::driver

@@ -1,5 +1,6 @@
 """Runs of a driver as a user starts them, and such that are stopped at an event, however fast the machine is."""
 
+import csv
 import json
 import os
 import shutil
@@ -12,6 +13,7 @@ from pathlib import Path
 
 # A snapshot as often as the driver looks at the clock, so that steps decide when there is one.
 SNAPSHOTS_BY_STEPS = ["--set", "Output/snapshot interval=1e-9"]
+OF_THE_CLOCK = ("wall", "particle", "share", "core", "threads")  # first words of figures that are no results
 
 
 def stop_when(happened, command, send=signal.SIGKILL):
@@ -77,6 +79,18 @@ class DriverCase(unittest.TestCase):
         result = self.run_driver(self.tmp / name, settings, *options, file=file)
         self.check_success(result)
         return json.loads((self.tmp / name / "summary.json").read_text())
+
+    def table(self, name, *path):
+        """A table of a run, its history unless named; each row the numbers by column."""
+        with open(self.tmp.joinpath(name, *(path or ("history.csv",))), newline="") as lines:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
+
+    def assert_same_results(self, run, whole):
+        """The figures of two runs, to the last bit; what tells of the machine's speed may differ."""
+        runs = [json.loads((self.tmp / name / "summary.json").read_text()) for name in (run, whole)]
+        figures, expected = ({key: value for key, value in figures.items() if key.split("_")[0] not in OF_THE_CLOCK}
+                             for figures in runs)
+        self.assertEqual(figures, expected)
 
     def check_success(self, result):
         self.assertEqual(result.returncode, 0, result.stderr)

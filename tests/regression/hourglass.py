@@ -4,7 +4,6 @@
 Usage: hourglass.py PROGRAM [TOPIC]
 """
 
-import csv
 import json
 import signal
 import subprocess
@@ -25,10 +24,6 @@ class Case(DriverCase):
         """One thread: so few grains are not worth a team."""
         words = super().command(*arguments, **files)
         return words if "--threads" in words else [*words, "--threads", "1"]
-
-    def table(self, *path):
-        with open(self.tmp.joinpath(*path), newline="") as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 class Results(Case):

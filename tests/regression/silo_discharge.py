@@ -4,7 +4,6 @@
 Usage: silo_discharge.py PROGRAM [TOPIC]
 """
 
-import csv
 import json
 import shutil
 import signal
@@ -32,10 +31,6 @@ class Case(DriverCase):
     def check_success(self, result):
         super().check_success(result)
         self.assertEqual(result.stderr, "")
-
-    def table(self, *path):
-        with open(self.tmp.joinpath(*path), newline="") as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 class Results(Case):
