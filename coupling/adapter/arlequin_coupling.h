@@ -4,6 +4,7 @@
 #include "coupling/adapter/grains_mover.h"
 #include "coupling/arlequin/penalty.h"
 #include "coupling/arlequin/weight.h"
+#include "coupling/arlequin/weight_transfer.h"
 #include "coupling/model/coupling.h"
 
 #include <span>
@@ -15,9 +16,11 @@ namespace bergamo::coupling
 /// How grains and continuum are joined.
 struct CouplingParameters
 {
-  double penalty = 1e14; ///< epsilon [Pa/m^2], > 0
+  double penalty = 1e15; ///< epsilon [Pa/m^2], > 0
   Projection projection = Projection::lumped;
   double least_weight = default_min_weight; ///< bound of the grains' weights from below, see weight.h
+  EdgeParameters edge;
+  double transfer_time = 1e-4; ///< in which the transfer follows the contacts [s], > 0
 };
 
 /// Where an overlap lies.
@@ -29,8 +32,10 @@ struct OverlapPlace
   std::span<const Vec3> reference_by_id; ///< places of the grains in the reference configuration, by id [m]
 };
 
-/// Grains and a solid that share a part of their space, joined by an Arlequin overlap (Wellmann, 6.1-6.3). Several
-/// overlaps may lie in one model; no grain lies in two.
+/// Grains and a solid that share a part of their space, joined by an Arlequin overlap (Wellmann, 6.1-6.3) with forces
+/// that are blended (WeightTransfer) and an edge that is held (HeldEdge). Several overlaps may lie in one model; no
+/// grain lies in two. Held grains start in equilibrium, if the others do: at the first step they get the dead loads
+/// that keep them where they are.
 class ArlequinCoupling final : public Coupling
 {
 public:
@@ -40,24 +45,57 @@ public:
                    const OverlapPlace &place, std::string name = "overlap");
 
   void apply() override;
+  void follow(const double time_step) override { drifted_ = time_step; }
   std::vector<const Mover *> movers() const override { return {&grains_, &body_}; }
   double stable_step() override;
   double energy() const override { return state_.energy; }
 
   const PenaltyCoupling &penalty() const { return penalty_; }
 
-  /// Of the last apply(): energy stored in the penalty and the largest nodal difference.
+  /// Of the last apply(): energy stored in the penalty and the edge, and the largest nodal difference.
   const PenaltyState &state() const { return state_; }
+
+  /// Work on both models of what the gradient of the weights transfers, since the start until the last apply() [J].
+  double transfer_work() const { return transfer_work_; }
 
   /// Forces of the last apply() on the coupled particles, in the order of the overlap [N].
   std::span<const Eigen::Vector3d> particle_forces() const { return particle_force_; }
 
+  /// All that a step depends on beside the movers, by name; see dem/core/state.h.
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    visit("dead_load", self.penalty_.edge().dead_load);
+    visit("has_started", self.has_started_);
+    visit("drifted", self.drifted_);
+    visit("transfer_force", self.transfer_.force);
+    visit("transfer_torque", self.transfer_.torque);
+    visit("transfer_on_nodes", self.transfer_.on_nodes);
+    visit("transfer_work", self.transfer_work_);
+  }
+
 private:
+  /// What the gradient of the weights gives at one step.
+  struct Transfer
+  {
+    std::vector<Vec3> force, torque; // on the coupled particles [N], [N m]
+    std::vector<double> on_nodes;    // by degree of freedom [N]
+  };
+
+  void follow_transfer();
+  void balance_edge();
+  double work_of(const Transfer &transfer) const;
+
   GrainsMover &grains_;
   SolidMover &body_;
   PenaltyCoupling penalty_;
+  WeightTransfer weight_transfer_;
+  double transfer_time_; // [s]
   PenaltyState state_;
   std::vector<Eigen::Vector3d> particle_displacement_, particle_force_;
+  Transfer transfer_;
+  double transfer_work_ = 0., drifted_ = 0.; // [J], [s]
+  std::int64_t has_started_ = 0;
 };
 
 } // namespace bergamo::coupling

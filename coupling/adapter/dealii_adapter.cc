@@ -9,6 +9,8 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q1.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <map>
 #include <string>
@@ -61,6 +63,24 @@ bool find_in_cell(const Cell &cell, const Vec3 &x, dealii::Point<3> &unit)
   return dealii::GeometryInfo<3>::is_inside_unit_cell(unit);
 }
 
+/// Gradients of the shape functions in space [1/m].
+std::array<Vec3, 8> gradients_at(const dealii::FE_Q<3> &trilinear, const Cell &cell, const dealii::Point<3> &unit)
+{
+  std::array<Vec3, 8> local;
+  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero(); // dx / d unit
+  for (unsigned int v = 0; v < 8; ++v)
+  {
+    const auto gradient = trilinear.shape_grad(v, unit);
+    const auto &x = cell->vertex(v);
+    local[v] = {gradient[0], gradient[1], gradient[2]};
+    jacobian += Vec3(x[0], x[1], x[2]) * local[v].transpose();
+  }
+  const Eigen::Matrix3d inverse_transposed = jacobian.inverse().transpose();
+  for (Vec3 &gradient : local)
+    gradient = inverse_transposed * gradient;
+  return local;
+}
+
 } // namespace
 
 Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::int64_t> id,
@@ -94,8 +114,10 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
       if (!box.may_hold(position[i]) || !find_in_cell(box.cell, position[i], unit))
         continue;
       const auto nodes = body.element_nodes(box.element);
+      const std::array<Vec3, 8> gradients = gradients_at(trilinear, box.cell, unit);
       for (unsigned int v = 0; v < 8; ++v)
       {
+        overlap.shape_gradient.push_back(gradients[v]);
         overlap.shape_node.push_back(place_of(nodes[v]));
         overlap.shape_value.push_back(std::clamp(trilinear.shape_value(v, unit), 0., 1.));
       }

@@ -30,8 +30,8 @@ GrainsMover::GrainsMover(std::unique_ptr<dem::Simulation> grains, std::string na
 
 void GrainsMover::compute_forces()
 {
-  std::vector<Vec3> &external = grains_->particles.external_force;
-  std::fill(external.begin(), external.end(), Vec3::Zero());
+  for (std::vector<Vec3> *external : {&grains_->particles.external_force, &grains_->particles.external_torque})
+    std::fill(external->begin(), external->end(), Vec3::Zero());
   grains_->compute_forces();
 }
 

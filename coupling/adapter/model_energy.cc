@@ -31,6 +31,8 @@ ModelEnergy energy_of(const TwoScaleModel &model)
     e.gravity_work += b.gravity_work;
   }
   e.coupling = model.penalty_state().energy;
+  if (model.overlap())
+    e.transfer_work = model.overlap()->transfer_work();
   return e;
 }
 

@@ -12,12 +12,13 @@ struct ModelEnergy
   double friction_loss = 0., viscous_loss = 0., plastic_loss = 0., stiffness_loss = 0.; ///< the last: fe::BodyEnergy
   double wall_work = 0.; ///< of the walls on grains and of the boundary on the continuum
   double gravity_work = 0.;
+  double transfer_work = 0.; ///< of what the gradient of the weights transfers, on both models
   double curvature_work = 0., search_work = 0., quadrature_work = 0.; ///< of the grains' contacts, see dem::GrainEnergy
 
   double balance() const
   {
     return kinetic + grains_elastic + continuum_elastic + coupling + friction_loss + viscous_loss + plastic_loss +
-           stiffness_loss - wall_work - gravity_work - curvature_work - search_work - quadrature_work;
+           stiffness_loss - wall_work - gravity_work - transfer_work - curvature_work - search_work - quadrature_work;
   }
 };
 

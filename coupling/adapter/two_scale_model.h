@@ -29,6 +29,8 @@ public:
   const dem::Simulation *grains() const { return grains_ ? &grains_->simulation() : nullptr; }
   fe::ExplicitBody *body() { return body_ ? &body_->solid() : nullptr; }
   const fe::ExplicitBody *body() const { return body_ ? &body_->solid() : nullptr; }
+  ArlequinCoupling *overlap() { return overlap_; }
+  const ArlequinCoupling *overlap() const { return overlap_; }
   const PenaltyCoupling *coupling() const { return overlap_ ? &overlap_->penalty() : nullptr; }
 
   /// Of the last compute_forces(); zero before join().

@@ -43,7 +43,8 @@ void check_sizes(const Overlap &overlap)
   if (overlap.shape_offset.size() != n_particles + 1 || overlap.shape_offset.front() != 0 ||
       !std::is_sorted(overlap.shape_offset.begin(), overlap.shape_offset.end()) ||
       overlap.shape_offset.back() != overlap.shape_node.size() ||
-      overlap.shape_node.size() != overlap.shape_value.size())
+      overlap.shape_node.size() != overlap.shape_value.size() ||
+      overlap.shape_node.size() != overlap.shape_gradient.size())
     fail("the shape function values are not in rows of particles");
   const auto is_node = [n_nodes](const int node) { return node >= 0 && static_cast<std::size_t>(node) < n_nodes; };
   if (!std::all_of(overlap.shape_node.begin(), overlap.shape_node.end(), is_node))
@@ -66,6 +67,7 @@ void check_particle(const Overlap &overlap, const std::size_t particle)
 
   double sum = 0., extent = 0.;
   Eigen::Vector3d interpolated = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
   const Eigen::Vector3d &position = overlap.reference_position[particle];
   for (std::size_t k = overlap.shape_offset[particle]; k < overlap.shape_offset[particle + 1]; ++k)
   {
@@ -76,6 +78,7 @@ void check_particle(const Overlap &overlap, const std::size_t particle)
            "; values must lie in [0, 1]: look for its element again and take linear elements");
     sum += value;
     interpolated += value * node;
+    gradient += (node - position) * overlap.shape_gradient[k].transpose();
     extent = std::max(extent, (node - position).norm());
   }
   if (!(std::abs(sum - 1.) <= shape_tolerance))
@@ -83,6 +86,8 @@ void check_particle(const Overlap &overlap, const std::size_t particle)
   if (!((interpolated - position).norm() <= position_tolerance * extent))
     fail("the shape function values of ", name(), " belong to the place ", text(interpolated),
          "; look for its element again");
+  if (!((gradient - Eigen::Matrix3d::Identity()).norm() <= position_tolerance))
+    fail("the shape function gradients of ", name(), " are not those of its place; look for its element again");
 }
 
 void check_nodes(const Overlap &overlap)

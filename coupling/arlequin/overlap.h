@@ -25,6 +25,7 @@ struct Overlap
   std::vector<std::size_t> shape_offset{0};
   std::vector<int> shape_node; ///< place of the node in `nodes`
   std::vector<double> shape_value;
+  std::vector<Eigen::Vector3d> shape_gradient; ///< of N_I at the centre [1/m]
 
   /// V_IJ = integral of N_I N_J over the elements of the overlap [m^3], symmetric.
   Eigen::SparseMatrix<double, Eigen::RowMajor> volume_matrix;
@@ -33,8 +34,9 @@ struct Overlap
   std::size_t n_particles() const { return particle_id.size(); }
 
   /// Throws ConfigError, naming the particle or the position of the node and the remedy, unless sizes fit,
-  /// every particle's shape values lie in [0, 1] (linear elements), sum to 1 and give back its position, every node is
-  /// reached by a particle, and the volume matrix is symmetric with positive row sums.
+  /// every particle's shape values lie in [0, 1] (linear elements), sum to 1 and give back its position, their
+  /// gradients give back the gradient of the position, every node is reached by a particle, and the volume matrix is
+  /// symmetric with positive row sums.
   void validate() const;
 };
 

@@ -36,8 +36,8 @@ double scattered(std::uint64_t i)
 PenaltyCoupling::PenaltyCoupling(Overlap overlap, const Projection kind, const double penalty)
     : overlap_(std::move(overlap)), projection_(overlap_, kind), penalty_(penalty),
       largest_node_(*std::max_element(overlap_.nodes.begin(), overlap_.nodes.end())),
-      particle_work_(overlap_.n_particles()), node_work_(overlap_.n_nodes()),
-      difference_(overlap_.n_nodes(), Eigen::Vector3d::Zero())
+      particle_difference_(overlap_.n_particles()), particle_work_(overlap_.n_particles()),
+      node_work_(overlap_.n_nodes()), difference_(overlap_.n_nodes(), Eigen::Vector3d::Zero())
 {
   if (!(penalty > 0.) || !std::isfinite(penalty))
     fail("the penalty is ", penalty, " Pa/m^2; it must be positive, e.g. ten times the continuum's modulus over the ",
@@ -49,7 +49,7 @@ PenaltyState PenaltyCoupling::compute(const std::span<const Eigen::Vector3d> par
                                       const std::span<const double> fe_displacement,
                                       const std::span<Eigen::Vector3d> particle_force, const std::span<double> fe_force)
 {
-  const std::size_t n_particles = overlap_.n_particles(), n_nodes = overlap_.n_nodes();
+  const std::size_t n_particles = overlap_.n_particles();
   if (particle_displacement.size() != n_particles || particle_force.size() != n_particles)
     fail(particle_displacement.size(), " displacements and ", particle_force.size(), " forces for ", n_particles,
          " coupled particles");
@@ -57,14 +57,23 @@ PenaltyState PenaltyCoupling::compute(const std::span<const Eigen::Vector3d> par
       fe_force.size() != fe_displacement.size())
     fail(fe_displacement.size(), " displacements and ", fe_force.size(),
          " forces of the elements; one size is needed, for nodes up to number ", largest_node_);
+  return add_forces(particle_displacement, fe_displacement, particle_force, fe_force, Loads::all);
+}
+
+PenaltyState PenaltyCoupling::add_forces(const std::span<const Eigen::Vector3d> particle_displacement,
+                                         const std::span<const double> fe_displacement,
+                                         const std::span<Eigen::Vector3d> particle_force,
+                                         const std::span<double> fe_force, const Loads loads)
+{
+  const std::size_t n_particles = overlap_.n_particles(), n_nodes = overlap_.n_nodes();
 
   // Difference of the models at the particles, then its coarse part.
   for (std::size_t i = 0; i < n_nodes; ++i)
     node_work_[i] = Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * overlap_.nodes[i]]);
-  projection_.interpolate(node_work_, particle_work_);
+  projection_.interpolate(node_work_, particle_difference_);
   for (std::size_t particle = 0; particle < n_particles; ++particle)
-    particle_work_[particle] = particle_displacement[particle] - particle_work_[particle];
-  projection_.project(particle_work_, difference_);
+    particle_difference_[particle] = particle_displacement[particle] - particle_difference_[particle];
+  projection_.project(particle_difference_, difference_);
 
   // Nodal forces f = epsilon V r.
   const auto &matrix = overlap_.volume_matrix;
@@ -89,9 +98,12 @@ PenaltyState PenaltyCoupling::compute(const std::span<const Eigen::Vector3d> par
   projection_.transpose_project(node_work_, particle_work_);
   for (std::size_t particle = 0; particle < n_particles; ++particle)
     particle_force[particle] = -particle_work_[particle];
-  projection_.collect(particle_work_, node_work_);
+  state.energy += edge_.add_springs(particle_difference_, particle_force);
+  if (loads == Loads::all)
+    state.energy += edge_.add_dead_loads(particle_difference_, particle_force);
+  projection_.collect(particle_force, node_work_);
   for (std::size_t i = 0; i < n_nodes; ++i)
-    Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * overlap_.nodes[i]) += node_work_[i];
+    Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * overlap_.nodes[i]) -= node_work_[i];
   return state;
 }
 
@@ -148,7 +160,7 @@ double PenaltyCoupling::largest_eigenvalue(const CoupledMasses &masses, const do
         std::copy_n(displacement.data(), 3, &fe_displacement[3 * overlap_.nodes[i - n_particles]]);
     }
     std::fill(fe_force.begin(), fe_force.end(), 0.);
-    compute(particle_displacement, fe_displacement, particle_force, fe_force);
+    add_forces(particle_displacement, fe_displacement, particle_force, fe_force, Loads::linear);
 
     eigenvalue = 0.;
     for (std::size_t i = 0; i < n; ++i)

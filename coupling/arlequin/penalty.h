@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/arlequin/held_edge.h"
 #include "coupling/arlequin/projection.h"
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace bergamo::coupling
 /// What the coupling stores and how far apart the models are.
 struct PenaltyState
 {
-  double energy = 0.;             ///< (epsilon / 2) integral of |r|^2 dV [J]
+  double energy = 0.;             ///< (epsilon / 2) integral of |r|^2 dV, and that of a held edge [J]
   double largest_difference = 0.; ///< largest |r_I| of the coupling nodes [m]
 };
 
@@ -36,6 +37,11 @@ public:
   /// Penalty epsilon [Pa/m^2 = J/m^5] > 0. Throws ConfigError for a bad overlap or penalty.
   PenaltyCoupling(Overlap overlap, Projection kind, double penalty);
 
+  /// Holds the grains at the edge, too. Before the first step.
+  void hold(HeldEdge edge) { edge_ = std::move(edge); }
+  const HeldEdge &edge() const { return edge_; }
+  HeldEdge &edge() { return edge_; }
+
   const Overlap &overlap() const { return overlap_; }
   const CoarseProjection &projection() const { return projection_; }
 
@@ -56,12 +62,23 @@ public:
   double stable_time_step(const CoupledMasses &masses);
 
 private:
+  enum class Loads
+  {
+    all,
+    linear ///< in the displacements: without the dead loads of the edge
+  };
+
+  PenaltyState add_forces(std::span<const Eigen::Vector3d> particle_displacement,
+                          std::span<const double> fe_displacement, std::span<Eigen::Vector3d> particle_force,
+                          std::span<double> fe_force, Loads loads);
+
   Overlap overlap_;
   CoarseProjection projection_;
   double penalty_;
   int largest_node_;
 
-  std::vector<Eigen::Vector3d> particle_work_, node_work_, difference_;
+  HeldEdge edge_;
+  std::vector<Eigen::Vector3d> particle_difference_, particle_work_, node_work_, difference_;
 };
 
 } // namespace bergamo::coupling

@@ -19,6 +19,8 @@ void ContactSet<Kind>::compute(const ContactScene &scene, PhaseTimes &times)
     return; // history has ended at the renewal
   Stopwatch watch;
   const Particles &p = scene.particles;
+  if (const bool are_wanted = !Kind::second_is_wall && p.are_weighted(); are_wanted != loads.has_transfers())
+    loads.sum_transfers(are_wanted);
   list_bodies(scene.bodies());
   const std::vector<std::int32_t> due_slots = follow_all(store, loads, losses,
                                                          [&](const std::size_t block, Losses<Pack> &lost) {
@@ -242,6 +244,9 @@ void ContactSet<Kind>::add_load_of(const Particles &p, const ContactSearch &pair
 {
   const std::int32_t s = slot[pair.pair];
   loads.add(s, resultant);
+  if (loads.has_transfers())
+    if (const double weight = store.weight_of(s); weight > 0.)
+      loads.add_transfer(s, resultant, p.weight[pair.first] / weight - 1., p.weight[pair.second] / weight - 1.);
   if (p.cell.is_periodic())
     loads.virial_of_slot(s).add(0.5 * p.branch(pair.first, pair.second, pair.image), p.cell.place[pair.image],
                                 resultant.force);

@@ -109,6 +109,11 @@ public:
 
   State<double> get(const std::int32_t slot) const { return lane_of(blocks[slot / pack_width], slot % pack_width); }
 
+  double weight_of(const std::int32_t slot) const
+  {
+    return math::lane(blocks[slot / pack_width].weight, slot % pack_width);
+  }
+
   void set(const std::int32_t slot, const State<double> &state)
   {
     const auto *numbers = reinterpret_cast<const double *>(&state);

@@ -2,6 +2,8 @@
 
 #include "dem/force/follow_spheres.h"
 
+#include <array>
+
 namespace bergamo::dem
 {
 namespace
@@ -43,6 +45,25 @@ BERGAMO_INLINE void prefetch(const ContactStore<State> &store, const std::size_t
   }
 }
 
+/// What weights that differ make of a block's contacts, see Particles::transfer_force. Blocks within one weight add
+/// none.
+template <template <class> class State>
+void add_transfers(LoadSums &loads, const ContactStore<State> &store, const std::size_t block, const Particles &p,
+                   const std::array<Vector3<Pack>, 3> &load)
+{
+  for (int lane = 0; lane < pack_width; ++lane)
+  {
+    const auto slot = static_cast<std::int32_t>(block * pack_width + lane);
+    const double weight1 = p.weight[store.first[slot]], weight2 = p.weight[store.second[slot]];
+    if (weight1 == weight2)
+      continue;
+    if (const double weight = math::lane(store.blocks[block].weight, lane); weight > 0.)
+      loads.add_transfer(
+          slot, {math::lane<Pack>(load[0], lane), math::lane<Pack>(load[1], lane), math::lane<Pack>(load[2], lane)},
+          weight1 / weight - 1., weight2 / weight - 1.);
+  }
+}
+
 } // namespace
 
 math::Mask<Pack> follow_block(ContactStore<ContactState> &store, LoadSums &loads, const std::size_t block,
@@ -54,7 +75,11 @@ math::Mask<Pack> follow_block(ContactStore<ContactState> &store, LoadSums &loads
   const PairMotion<Pack> motion = motion_of(store, block, particles, time_step);
   const Followed<Pack> followed = follow(state, motion, law, losses);
   const Vector3<Pack> &force = followed.force;
-  loads.add(block, force, (motion.half_line + state.point).cross(force), (motion.half_line - state.point).cross(force));
+  const Vector3<Pack> torque1 = (motion.half_line + state.point).cross(force),
+                      torque2 = (motion.half_line - state.point).cross(force);
+  loads.add(block, force, torque1, torque2);
+  if (loads.has_transfers())
+    add_transfers(loads, store, block, particles, {force, torque1, torque2});
   if (particles.cell.is_periodic())
     loads.virial_of_block(block).add(motion.half_line, shift_of_block(store, block, particles), force);
   return followed.is_due;
@@ -68,6 +93,8 @@ math::Mask<Pack> follow_block(ContactStore<SphereContactState> &store, LoadSums 
   const PairMotion<Pack> motion = motion_of(store, block, particles, time_step);
   const FollowedSpheres<Pack> followed = follow(store.blocks[block], motion, law, losses);
   loads.add(block, followed.force, followed.torque1, followed.torque2);
+  if (loads.has_transfers())
+    add_transfers(loads, store, block, particles, {followed.force, followed.torque1, followed.torque2});
   if (particles.cell.is_periodic())
     loads.virial_of_block(block).add(motion.half_line, shift_of_block(store, block, particles), followed.force);
   return followed.is_apart;

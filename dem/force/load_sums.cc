@@ -29,7 +29,7 @@ void LoadSums::list_bodies(const std::vector<std::int32_t> &first, const std::ve
 {
   const std::size_t n_slots = first.size(), n = (n_slots + slots_per_chunk - 1) / slots_per_chunk;
   std::vector<std::vector<std::int32_t>> bodies_of(n);
-  std::vector<std::vector<BodyLoad>> loads_of(n);
+  std::vector<std::vector<BodyLoad>> loads_of(n), transfers_of(n);
   target.resize(n_slots);
   block_virial.resize(n);
   slot_virial.resize(n);
@@ -58,11 +58,16 @@ void LoadSums::list_bodies(const std::vector<std::int32_t> &first, const std::ve
                         place[bodies[k]] = static_cast<std::int32_t>(k);
                       for (std::size_t slot = first_slot; slot < last; ++slot)
                         target[slot] = {place[first[slot]], place[second[slot]]};
-                      loads_of[chunk].resize(bodies.size());
-                      if (chunk < n_chunks())
-                        for (auto entry = row[chunk]; entry < row[chunk] + count[chunk]; ++entry)
-                          if (place[body[entry]] != none)
-                            loads_of[chunk][place[body[entry]]] = load[entry];
+                      const auto keep = [&](const std::vector<BodyLoad> &sums, std::vector<BodyLoad> &kept)
+                      {
+                        kept.resize(bodies.size());
+                        if (chunk < n_chunks() && !sums.empty())
+                          for (auto entry = row[chunk]; entry < row[chunk] + count[chunk]; ++entry)
+                            if (place[body[entry]] != none)
+                              kept[place[body[entry]]] = sums[entry];
+                      };
+                      keep(load, loads_of[chunk]);
+                      keep(transfer, transfers_of[chunk]);
                       for (const std::int32_t b : bodies)
                         place[b] = none;
                     }
@@ -78,6 +83,7 @@ void LoadSums::list_bodies(const std::vector<std::int32_t> &first, const std::ve
   }
   body.resize(row[n]);
   load.assign(row[n], {});
+  transfer.assign(sums_transfers ? row[n] : 0, {});
   parallel_ranges(n, 1,
                   [&](const std::size_t, const std::size_t begin, const std::size_t end)
                   {
@@ -85,6 +91,9 @@ void LoadSums::list_bodies(const std::vector<std::int32_t> &first, const std::ve
                     {
                       std::copy(bodies_of[chunk].begin(), bodies_of[chunk].end(), body.begin() + row[chunk]);
                       std::copy(loads_of[chunk].begin(), loads_of[chunk].end(), load.begin() + row[chunk]);
+                      if (sums_transfers)
+                        std::copy(transfers_of[chunk].begin(), transfers_of[chunk].end(),
+                                  transfer.begin() + row[chunk]);
                       const std::size_t last = std::min((chunk + 1) * slots_per_chunk, n_slots);
                       for (std::size_t slot = chunk * slots_per_chunk; slot < last; ++slot)
                       {
@@ -138,6 +147,8 @@ std::int32_t LoadSums::entry_of(const std::size_t chunk, const std::int32_t body
     return none;
   body[end] = body_index;
   load[end] = {};
+  if (sums_transfers)
+    transfer[end] = {};
   ++count[chunk];
   return end;
 }
@@ -153,6 +164,12 @@ bool LoadSums::list_entry(const std::int32_t body_index, const std::int32_t entr
   *place = entry;
   ++body_count[body_index];
   return true;
+}
+
+void LoadSums::sum_transfers(const bool are_wanted)
+{
+  sums_transfers = are_wanted;
+  transfer.assign(are_wanted ? load.size() : 0, {});
 }
 
 void LoadSums::add_virial(Virial<double> &sum) const

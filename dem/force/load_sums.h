@@ -71,6 +71,8 @@ public:
   {
     for (auto entry = row[chunk]; entry < row[chunk] + count[chunk]; ++entry)
       load[entry] = {};
+    for (auto entry = row[chunk]; !transfer.empty() && entry < row[chunk] + count[chunk]; ++entry)
+      transfer[entry] = {};
     block_virial[chunk] = {};
     slot_virial[chunk] = {};
   }
@@ -104,6 +106,21 @@ public:
     on2.torque.head<3>() += r.torque2;
   }
 
+  /// Whether transfers are summed, too: where weights differ, what a body's own weight makes of a contact beyond that
+  /// of the contact (see Particles::transfer_force).
+  bool has_transfers() const { return sums_transfers; }
+  void sum_transfers(bool are_wanted);
+
+  /// Adds shares of what the contact of one slot gives, on body 1 and on body 2.
+  void add_transfer(const std::int32_t slot, const Resultant &r, const double share1, const double share2)
+  {
+    BodyLoad &on1 = transfer[target[slot].first], &on2 = transfer[target[slot].second];
+    on1.force.head<3>() += share1 * r.force;
+    on1.torque.head<3>() += share1 * r.torque1;
+    on2.force.head<3>() -= share2 * r.force;
+    on2.torque.head<3>() += share2 * r.torque2;
+  }
+
   /// The virial of a chunk's blocks, and of its single contacts, to be added to.
   Virial<Pack> &virial_of_block(const std::size_t block) { return block_virial[block * pack_width / slots_per_chunk]; }
   Virial<double> &virial_of_slot(const std::int32_t slot) { return slot_virial[slot / slots_per_chunk]; }
@@ -111,14 +128,14 @@ public:
   /// Adds to `sum` the virial of all contacts.
   void add_virial(Virial<double> &sum) const;
 
-  /// Adds to `sum` what all contacts give to a body.
-  void add_load(const std::size_t body_index, BodyLoad &sum) const
+  /// Adds to `sum` what all contacts give to a body, and what they transfer. @{
+  void add_load(const std::size_t body_index, BodyLoad &sum) const { add_entries(load, body_index, sum); }
+  void add_transfer(const std::size_t body_index, BodyLoad &sum) const
   {
-    if (body_index + 1 >= body_row.size())
-      return; // not among the bodies listed
-    for (auto k = body_row[body_index]; k < body_row[body_index] + body_count[body_index]; ++k)
-      sum += load[body_entry[k]];
+    if (has_transfers())
+      add_entries(transfer, body_index, sum);
   }
+  /// @}
 
 private:
   /// Where the contact of a slot adds to.
@@ -127,14 +144,23 @@ private:
     std::int32_t first = 0, second = 0;
   };
 
+  void add_entries(const std::vector<BodyLoad> &entries, const std::size_t body_index, BodyLoad &sum) const
+  {
+    if (body_index + 1 >= body_row.size())
+      return; // not among the bodies listed
+    for (auto k = body_row[body_index]; k < body_row[body_index] + body_count[body_index]; ++k)
+      sum += entries[body_entry[k]];
+  }
+
   std::int32_t entry_of(std::size_t chunk, std::int32_t body_index);
   bool list_entry(std::int32_t body_index, std::int32_t entry);
 
-  bool current = false;
+  bool current = false, sums_transfers = false;
   // Entries of chunk c: row[c] .. row[c] + count[c], with room for more up to row[c + 1].
   std::vector<std::int32_t> row, count;
   std::vector<std::int32_t> body;         // by entry
   std::vector<BodyLoad> load;             // by entry, of this step
+  std::vector<BodyLoad> transfer;         // likewise; empty where none are summed
   std::vector<Targets> target;            // by slot
   std::vector<Virial<Pack>> block_virial; // by chunk, of this step
   std::vector<Virial<double>> slot_virial;

@@ -54,7 +54,8 @@ Pose<Pack> gather_pose(const Particles &p, const Part &part, const Index &partic
 }
 
 /// Share of the contact in the virtual work: interpolated along the line of centres, Wellmann (6.29), and held between
-/// the weights of the particles where the contact lies beside that line.
+/// the weights of the particles where the contact lies beside that line. With a particle of weight 1 it counts wholly:
+/// such a particle may lie where no other model does, which could take a transfer.
 template <class Real>
 Real contact_weight(const Real &weight1, const Real &weight2, const Vector3<Real> &centre_line,
                     const Vector3<Real> &arm1)
@@ -62,7 +63,8 @@ Real contact_weight(const Real &weight1, const Real &weight2, const Vector3<Real
   const Real square = centre_line.squaredNorm(); // zero for particles at one place
   const Real along = math::select(square > Real(0.), Real(centre_line.dot(arm1) / square), Real(0.5));
   const Real fraction = math::clamp(along, Real(0.), Real(1.));
-  return weight1 + fraction * (weight2 - weight1);
+  const auto is_whole = weight1 == Real(1.) || weight2 == Real(1.);
+  return math::select(is_whole, Real(1.), Real(weight1 + fraction * (weight2 - weight1)));
 }
 
 /// Searches of a group of pairs, and what they give beside the states of the contacts.

@@ -104,6 +104,9 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Step &step, Pack &la
   Vector3<Pack> force = load(p.force, grains);
   if (!p.external_force.empty())
     force += load(p.external_force, grains);
+  Vector3<Pack> torque = load(p.torque, grains);
+  if (!p.external_torque.empty())
+    torque += load(p.external_torque, grains);
   const Pack free = math::select(mass < infinity, Pack(1.), Pack(0.)); // 0 for a fixed grain
   const Vector3<Pack> old_position = load(p.position, grains);
   Vector3<Pack> field_kick;
@@ -111,7 +114,7 @@ bool advance_lanes(Particles &p, const Lanes &grains, const Step &step, Pack &la
     field_kick[d] = free * (step.kick * field.constant[d] + step.kick * field.gradient[d] * old_position[d]);
   const Vector3<Pack> velocity = load(p.velocity, grains) + force * acceleration + field_kick;
   const Vector3<Pack> position = old_position + velocity * Pack(dt);
-  const Vector3<Pack> momentum = load(p.angular_momentum, grains) + load(p.torque, grains) * (kick * free);
+  const Vector3<Pack> momentum = load(p.angular_momentum, grains) + torque * (kick * free);
 
   const Orientation<Pack> old = load(p.orientation, grains);
   const Vector3<Pack> spin = mean_angular_velocity(old, load(p.inertia, grains), momentum, dt);

@@ -86,11 +86,13 @@ struct HalfStepAfter
 
   HalfStepAfter(const Particles &p, const std::size_t i, const Vec3 &field_acceleration, const double kick)
   {
-    Vec3 force = p.force[i];
+    Vec3 force = p.force[i], torque = p.torque[i];
     if (!p.external_force.empty())
       force += p.external_force[i];
+    if (!p.external_torque.empty())
+      torque += p.external_torque[i];
     velocity = p.velocity[i] + kick * (force / (p.weight[i] * p.mass[i]) + field_acceleration);
-    momentum = p.angular_momentum[i] + kick / p.weight[i] * p.torque[i];
+    momentum = p.angular_momentum[i] + kick / p.weight[i] * torque;
     spin = spin_of(p, i, momentum);
   }
 

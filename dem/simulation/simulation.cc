@@ -21,6 +21,7 @@ Simulation::Simulation(const SimulationParameters &parameters, Particles new_par
       p(parameters)
 {
   p.validate();
+  particles.look_at_weights();
   if (particles.size() == 0)
     throw ConfigError("the number of grains is 0: a simulation needs at least one grain");
   particles.check(p.materials.size());
@@ -157,6 +158,7 @@ void Simulation::compute_forces()
   contacts.compute(particles, walls, {laws, p.contact, last_step, surfaces}, times);
   watch_of_phases.restart();
   const std::vector<const LoadSums *> sums = contacts.load_sums();
+  const bool are_weighted = particles.are_weighted();
   const auto load_of = [&](const std::size_t body)
   {
     BodyLoad load;
@@ -170,6 +172,13 @@ void Simulation::compute_forces()
                  const BodyLoad load = load_of(i);
                  particles.force[i] = load.force.head<3>();
                  particles.torque[i] = load.torque.head<3>();
+                 if (!are_weighted)
+                   return;
+                 BodyLoad transfer;
+                 for (const LoadSums *sum : sums)
+                   sum->add_transfer(i, transfer);
+                 particles.transfer_force[i] = transfer.force.head<3>();
+                 particles.transfer_torque[i] = transfer.torque.head<3>();
                });
   for (std::size_t w = 0; w < walls.size(); ++w)
   {
@@ -188,10 +197,11 @@ void Simulation::compute_forces()
 void Simulation::kick()
 {
   compute_forces();
-  const std::size_t n_forces = particles.external_force.size();
-  if (n_forces != 0 && n_forces != particles.size())
-    throw ConfigError("there are " + std::to_string(n_forces) + " external forces for " +
-                      std::to_string(particles.size()) + " grains: give one each, or none");
+  for (const auto &[forces, what] : {std::pair(&particles.external_force, " external forces for "),
+                                     std::pair(&particles.external_torque, " external torques for ")})
+    if (!forces->empty() && forces->size() != particles.size())
+      throw ConfigError("there are " + std::to_string(forces->size()) + what + std::to_string(particles.size()) +
+                        " grains: give one each, or none");
 }
 
 void Simulation::drift()

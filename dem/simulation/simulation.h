@@ -92,7 +92,11 @@ public:
   Exchange add(const Particles &added);
 
   /// Searches every contact anew at the next step, e.g. after the grains' weights have been changed.
-  void refresh_contacts() { contacts.refresh(particles); }
+  void refresh_contacts()
+  {
+    particles.look_at_weights();
+    contacts.refresh(particles);
+  }
 
   /// Stops all grains where they are.
   void rest();

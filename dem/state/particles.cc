@@ -100,14 +100,22 @@ void Particles::add(const Clump &clump, const double density, const Vec3 &new_po
 void Particles::append(const Particles &others, const std::size_t i, const std::int64_t new_id)
 {
   const std::size_t n = size(), n_parts = parts.size();
-  const bool has_forces = !external_force.empty();
-  if (has_forces)
-    external_force.push_back(Vec3::Zero());
+  for (std::vector<Vec3> *forces : {&external_force, &external_torque, &transfer_force, &transfer_torque})
+    if (!forces->empty())
+      forces->push_back(Vec3::Zero());
   append_entries(*this, others, i, i + 1);
   id[n] = new_id;
   append_entries(parts, others.parts, others.first_part[i], others.first_part[i + 1]);
   std::fill(parts.particle.begin() + n_parts, parts.particle.end(), static_cast<std::int32_t>(n));
   first_part.push_back(static_cast<std::int32_t>(parts.size()));
+}
+
+void Particles::look_at_weights()
+{
+  const bool are_all_one = std::all_of(weight.begin(), weight.end(), [](const double w) { return w == 1.; });
+  for (std::vector<Vec3> *transfers : {&transfer_force, &transfer_torque})
+    if (transfers->empty() != are_all_one)
+      transfers->assign(are_all_one ? 0 : size(), Vec3::Zero());
 }
 
 void Particles::fix(const std::size_t i)
@@ -125,7 +133,7 @@ void Particles::check(const std::int32_t n_materials) const
   visit_fields(*this,
                [&](const std::string &name, const auto &values)
                {
-                 if (name != "external_force" || !values.empty())
+                 if (!is_optional(name) || !values.empty())
                    check_length(name.c_str(), values.size(), n);
                });
   Parts::visit_fields(parts,
@@ -159,6 +167,8 @@ void Particles::check(const std::int32_t n_materials) const
            angular_momentum[i].sum(), "finite [kg m^2/s]");
     if (!external_force.empty())
       demand(external_force[i].allFinite(), "an external force of", external_force[i].sum(), "finite [N]");
+    if (!external_torque.empty())
+      demand(external_torque[i].allFinite(), "an external torque of", external_torque[i].sum(), "finite [N m]");
     const std::int32_t n_parts = first_part[i + 1] - first_part[i];
     demand(n_parts >= 1, "a number of parts of", n_parts, "at least 1");
     for (auto k = first_part[i]; k < first_part[i + 1]; ++k)

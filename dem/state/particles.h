@@ -35,9 +35,22 @@ struct Particles
   std::vector<Vec3> torque;         ///< about the centre [N m]
   std::vector<Vec3> external_force; ///< added to the contact forces, e.g. by a coupling [N]; empty where there is none
 
+  std::vector<Vec3> external_torque; ///< likewise, about the centre [N m]; empty where there is none
+
   /// Share w in (0, 1] of this particle in the virtual work: 1 unless another model shares the particle's place.
-  /// Mass, inertia and body forces count w times; a contact counts with the weight at its point.
+  /// Mass, inertia and body forces count w times; a contact counts with the weight w_c at its point.
   std::vector<double> weight;
+
+  /// @name What contacts would give this particle with its own weight, beyond what they give with theirs
+  /// Sums over the contacts of (w - w_c) f: what the gradient of the weights takes from the particle. Whoever shares
+  /// its place may give it back and keep the opposite, see coupling/arlequin/weight_transfer.h. Empty where all weights
+  /// are 1.
+  /// @{
+  std::vector<Vec3> transfer_force;  ///< [N]
+  std::vector<Vec3> transfer_torque; ///< about the centre [N m]
+  bool are_weighted() const { return !transfer_force.empty(); }
+  void look_at_weights(); ///< makes these arrays, or clears them, as the weights ask for
+  /// @}
 
   double largest_motion = 0.; ///< sum over the steps of the largest growth of any part's motion [m]
 
@@ -89,6 +102,13 @@ struct Particles
   /// @return order of the parts, likewise
   std::vector<std::int32_t> reorder(const std::vector<std::int32_t> &order);
 
+  /// Whether an array is empty where a simulation has no use for it.
+  static bool is_optional(const std::string &name)
+  {
+    return name == "external_force" || name == "external_torque" || name == "transfer_force" ||
+           name == "transfer_torque";
+  }
+
   /// Every array of the particles with its name, parts excepted: sorting, snapshot and hash follow from this list.
   template <class Self, class Visit>
   static void visit_fields(Self &self, Visit &&visit)
@@ -108,7 +128,10 @@ struct Particles
     visit("force", self.force);
     visit("torque", self.torque);
     visit("external_force", self.external_force);
+    visit("external_torque", self.external_torque);
     visit("weight", self.weight);
+    visit("transfer_force", self.transfer_force);
+    visit("transfer_torque", self.transfer_torque);
   }
 
   template <class Self, class Visit>

@@ -8,6 +8,14 @@ void declare_coupling(ParameterFile &file, coupling::CouplingParameters &couplin
   file.add("Coupling", "penalty", coupling.penalty, "epsilon [Pa/m2]", Range::positive());
   file.add("Coupling", "projection", coupling.projection, "of the grains' displacements",
            {{"lumped", coupling::Projection::lumped}, {"consistent", coupling::Projection::consistent}});
+  file.add("Coupling", "edge depth", coupling.edge.depth,
+           "of the overlap's edge, where each grain is held by itself, in mean diameters of the grains; 0 for none",
+           Range::between(0, 10));
+  file.add("Coupling", "edge stiffness", coupling.edge.stiffness, "of the grains held at the edge, per volume [Pa/m2]",
+           Range::positive());
+  file.add("Coupling", "transfer time", coupling.transfer_time,
+           "in which the continuum takes over what the gradient of the weights takes from the grains [s]",
+           Range::positive());
   file.add("Coupling", "least weight", coupling.least_weight, "lower bound of the grains' weights in the overlap",
            {.lowest = 0, .highest = 1, .lowest_included = false});
 }

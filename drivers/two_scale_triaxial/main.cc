@@ -81,6 +81,8 @@ bool TriaxialRun::pack()
     return false;
   packing_steps = grains.n_steps;
   start = end_packing(grains, parameters.simulation);
+  if (parameters.kind == ModelKind::two_scale)
+    remove_below(grains, parameters.overlap_bottom(start.box));
   specimen = std::make_unique<Specimen>(parameters, std::move(packing->grains), start);
   specimen->model.grains()->reset_accounts();
   packing.reset();

@@ -16,8 +16,7 @@ namespace bergamo::driver
 PackingStage begin_packing(const TriaxialParameters &parameters)
 {
   std::mt19937_64 generator(parameters.seed);
-  const double layer = parameters.element_size();
-  const Vec3 edges(parameters.edge, parameters.edge, parameters.grain_layers() * layer);
+  const Vec3 edges = Vec3::Constant(parameters.edge);
   const std::vector<dem::Superquadric> shapes =
       dem::draw_grains(parameters.distribution, parameters.expected_solid_fraction * edges.prod(), generator);
 
@@ -63,6 +62,17 @@ LoadingStart end_packing(dem::Simulation &grains, const dem::SimulationParameter
   grains.change(loading);
   start.reference_by_id = dem::positions_by_id(grains.particles);
   return start;
+}
+
+void remove_below(dem::Simulation &grains, const double height)
+{
+  std::vector<std::int32_t> below;
+  for (std::size_t i = 0; i < grains.particles.size(); ++i)
+    if (grains.particles.position[i][2] < height)
+      below.push_back(static_cast<std::int32_t>(i));
+  grains.remove_wall(4);
+  grains.remove(below);
+  grains.integrate(); // one step: the forces to come are those without them
 }
 
 } // namespace bergamo::driver

@@ -40,4 +40,7 @@ struct LoadingStart
 /// Stops a packing's grains and walls where they are, for the loading.
 LoadingStart end_packing(dem::Simulation &grains, const dem::SimulationParameters &loading);
 
+/// Takes out the grains whose centre lies below a height [m], and the floor: a continuum is there instead.
+void remove_below(dem::Simulation &grains, double height);
+
 } // namespace bergamo::driver

@@ -72,10 +72,14 @@ struct TriaxialParameters
   bool has_continuum() const { return kind != ModelKind::grains; }
   double element_size() const { return edge / elements_per_edge; } ///< nominal [m]
 
-  /// Layers of elements that the grains' height amounts to.
-  unsigned int grain_layers() const
+  /// Heights of the overlap in a cube [m].
+  double overlap_top(const dem::Box &cube) const
   {
-    return kind == ModelKind::grains ? elements_per_edge : elements_per_edge - continuum_layers + overlap_layers;
+    return cube.low[2] + cube.edges()[2] * continuum_layers / elements_per_edge;
+  }
+  double overlap_bottom(const dem::Box &cube) const
+  {
+    return cube.low[2] + cube.edges()[2] * (continuum_layers - overlap_layers) / elements_per_edge;
   }
 };
 

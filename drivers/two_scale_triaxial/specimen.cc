@@ -47,15 +47,6 @@ void require_below(const double limit, const double step, const std::string &sta
            state);
 }
 
-/// The grains' box, extended downwards by the layers that are continuum alone.
-dem::Box whole_cube(const TriaxialParameters &parameters, dem::Box box)
-{
-  const double layer = box.edges()[2] / parameters.grain_layers();
-  if (parameters.kind == ModelKind::two_scale)
-    box.low[2] = box.high[2] - parameters.elements_per_edge * layer;
-  return box;
-}
-
 } // namespace
 
 void require_stable_continuum(const TriaxialParameters &parameters)
@@ -70,8 +61,8 @@ void require_stable_continuum(const TriaxialParameters &parameters)
 }
 
 Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start)
-    : model(std::move(grains), make_body(p, whole_cube(p, start.box)), p.simulation.time_step), parameters(p),
-      cube(whole_cube(p, start.box)), edges(cube.edges()), step(p.simulation.time_step)
+    : model(std::move(grains), make_body(p, start.box), p.simulation.time_step), parameters(p), cube(start.box),
+      edges(cube.edges()), step(p.simulation.time_step)
 {
   const bool is_joined = parameters.kind == ModelKind::two_scale;
   if (fe::ExplicitBody *body = model.body())
@@ -80,7 +71,7 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
       faces[face].constraint = body->prescribe_velocity(face, face / 2);
   }
   if (is_joined)
-    join(start.reference_by_id, edges[2] / parameters.elements_per_edge);
+    join(start.reference_by_id);
   if (model.grains())
   {
     std::size_t wall = 0; // joined, the grains' floor is gone and the wall above has moved up in the list
@@ -94,13 +85,9 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
   require_below(body_steps->stable().time_step, step, " on the packed cube");
 }
 
-void Specimen::join(const std::vector<Vec3> &reference_by_id, const double layer)
+void Specimen::join(const std::vector<Vec3> &reference_by_id)
 {
-  // A restarted run finds its floor removed already.
-  if (model.grains()->walls.size() == 6)
-    model.grains()->remove_wall(4);
-  const double top = cube.low[2] + parameters.continuum_layers * layer;
-  const double bottom = top - parameters.overlap_layers * layer;
+  const double top = parameters.overlap_top(cube), bottom = parameters.overlap_bottom(cube);
   std::vector<double> weight;
   for (const auto &x : model.body()->node_position())
     weight.push_back(std::clamp((x[2] - bottom) / (top - bottom), 0., 1.));
@@ -202,6 +189,8 @@ void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, Loa
     specimen = std::make_unique<Specimen>(parameters, std::move(grains), start);
   if (specimen->model.body())
     visit_body(visit, *specimen->model.body());
+  if (specimen->model.overlap())
+    visit("overlap", *specimen->model.overlap());
   if (specimen->body_steps)
     visit_steps(visit, *specimen->body_steps);
   specimen->rotation.visit(visit);

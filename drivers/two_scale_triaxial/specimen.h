@@ -56,7 +56,7 @@ private:
     std::optional<fe::ExplicitBody::Constraint> constraint; ///< of the continuum
   };
 
-  void join(const std::vector<Vec3> &reference_by_id, double layer);
+  void join(const std::vector<Vec3> &reference_by_id);
   Vec3 stress() const;
 
   const TriaxialParameters &parameters;

@@ -26,9 +26,11 @@ SphereGeometry<double> geometry_of(const Particles &p, const ContactSearch &pair
   return {0.5 * p.branch(pair.first, pair.second, pair.image), first + second, first - second};
 }
 
-/// Interpolated to the point of contact, Wellmann (6.29).
+/// Interpolated to the point of contact, Wellmann (6.29); see contact_weight() of search_contacts.cc.
 double weight_of(const double weight1, const double weight2, const double radius1, const double radius2)
 {
+  if (weight1 == 1. || weight2 == 1.)
+    return 1.;
   const double fraction = radius1 / (radius1 + radius2);
   return weight1 + fraction * (weight2 - weight1);
 }
