@@ -57,10 +57,18 @@ inline Overlap block(const int n, const int particles_per_element, const unsigne
           for (int c = 0; c < 8; ++c)
           {
             double value = 1.;
+            Eigen::Vector3d local = Eigen::Vector3d::Ones(); // gradient over the place in the element
             for (int axis = 0; axis < 3; ++axis)
-              value *= (c >> axis & 1) ? place[axis] : 1. - place[axis];
+            {
+              const bool is_far = c >> axis & 1;
+              const double factor = is_far ? place[axis] : 1. - place[axis];
+              value *= factor;
+              for (int other = 0; other < 3; ++other)
+                local[other] *= other == axis ? (is_far ? 1. : -1.) : factor;
+            }
             overlap.shape_node.push_back(corner[c]);
             overlap.shape_value.push_back(value);
+            overlap.shape_gradient.push_back(edges.inverse().transpose() * local);
           }
           overlap.shape_offset.push_back(overlap.shape_node.size());
         }

@@ -227,6 +227,9 @@ TEST_CASE("a bad overlap is named with the place and the remedy")
   bad.reference_position[2].x() += 1e-3;
   CHECK_THAT(message(bad), Catch::Contains("particle 1014") && Catch::Contains("belong to the place"));
   bad = good;
+  bad.shape_gradient[17] *= 1.1;
+  CHECK_THAT(message(bad), Catch::Contains("particle 1014") && Catch::Contains("gradients"));
+  bad = good;
   bad.particle_volume[0] = 0.;
   CHECK_THAT(message(bad), Catch::Contains("particle 1000") && Catch::Contains("volume"));
   bad = good;

@@ -37,6 +37,73 @@ TEST_CASE("a contact counts with the weight at its place between the centres")
   CHECK(weighted.energy().normal == Approx(0.5 * plain.energy().normal).epsilon(1e-12));
 }
 
+TEST_CASE("what each of two bodies would have of a contact by its own weight is known")
+{
+  const Threads one_thread(1);
+  // The contact counts 0.5 times; by their own weights the bodies would have 0.2 and 0.8 of its force. Searched in the
+  // first step, followed in the others.
+  Simulation plain = two_spheres(1., 1.), weighted = two_spheres(0.2, 0.8);
+  CHECK_FALSE(plain.particles.are_weighted());
+  for (int step = 0; step < 3; ++step)
+  {
+    plain.particles.velocity = weighted.particles.velocity = {Vec3(0.001, 0.002, 0.), Vec3(0., 0., 0.)};
+    plain.compute_forces();
+    weighted.compute_forces();
+    const auto &p = weighted.particles;
+    const Vec3 force = plain.particles.force[0], torque = plain.particles.torque[1];
+    REQUIRE((step == 0 || torque.norm() > 0.));
+    CHECK((p.transfer_force[0] + 0.3 * force).norm() < 1e-12 * force.norm());
+    CHECK((p.transfer_force[1] + 0.3 * force).norm() < 1e-12 * force.norm());
+    CHECK((p.transfer_torque[1] - 0.3 * torque).norm() <= 1e-12 * torque.norm());
+    plain.drift();
+    weighted.drift();
+    plain.particles.position = weighted.particles.position;
+  }
+}
+
+TEST_CASE("a contact with a grain of weight 1 counts wholly, and transfers nothing to it")
+{
+  // Such a grain may lie outside of the overlap, where there is no element to take anything.
+  const Threads one_thread(1);
+  const auto is_superquadric = GENERATE(false, true);
+  Simulation pair = two_spheres(0.4, 1.);
+  if (is_superquadric)
+  {
+    Particles grains;
+    for (const double x : {0., 1.999e-3})
+      grains.add({Vec3::Constant(1e-3), 0.9, 0.9}, 2650., Vec3(x, 1e-5, 0.), Quaternion::Identity());
+    grains.weight = {0.4, 1.};
+    pair = Simulation(SimulationParameters(), grains, {});
+  }
+  pair.compute_forces();
+  const Particles &p = pair.particles;
+  REQUIRE(p.force[0].norm() > 0.1);
+  CHECK(pair.contacts.touching(p)[0].state.weight == 1.);
+  CHECK((p.transfer_force[0] + 0.6 * p.force[0]).norm() < 1e-12 * p.force[0].norm());
+  CHECK(p.transfer_force[1] == Vec3::Zero());
+  CHECK(p.transfer_torque[1] == Vec3::Zero());
+}
+
+TEST_CASE("a torque from outside turns a grain")
+{
+  Simulation pair = two_spheres(1., 1.);
+  Particles &p = pair.particles;
+  p.position[1] += Vec3(1e-3, 0., 0.); // apart
+  pair.refresh_contacts();
+  p.external_torque.assign(2, Vec3::Zero());
+  p.external_torque[1] = Vec3(0., 3e-9, 4e-9);
+  for (int step = 0; step < 5; ++step)
+  {
+    pair.step();
+    CHECK(pair.energy().kinetic >= 0.);
+  }
+  const double time = 5. * pair.parameters().time_step;
+  CHECK((p.angular_momentum[1] - time * p.external_torque[1]).norm() < 1e-14 * p.angular_momentum[1].norm());
+  CHECK(p.angular_momentum[0] == Vec3::Zero());
+  p.external_torque.pop_back();
+  CHECK_THROWS_WITH(pair.step(), Catch::Contains("1 external torques for 2 grains"));
+}
+
 TEST_CASE("a weighted grain accelerates by its weighted force over its weighted mass")
 {
   const Threads one_thread(1);

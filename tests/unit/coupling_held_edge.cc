@@ -1,0 +1,132 @@
+#include "coupling/arlequin/penalty.h"
+#include "coupling/arlequin/weight.h"
+#include "tests/unit/coupling_arlequin_block.h"
+
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+using namespace bergamo;
+using namespace bergamo::coupling;
+
+namespace
+{
+
+/// Weights that grow linearly from 0 on one side of a block of n elements a side.
+struct LinearWeights
+{
+  explicit LinearWeights(const Overlap &overlap, const int n) : length(0.009 * n)
+  {
+    // The block's third edge leans; the weights follow the plane of the other two.
+    Eigen::Vector3d origin = overlap.node_position[0];
+    normal = Eigen::Vector3d(0.010, 0., 0.001).cross(Eigen::Vector3d(0.002, 0.012, 0.)).normalized();
+    length = normal.dot(overlap.node_position.back() - origin);
+    for (const auto &x : overlap.node_position)
+      node.push_back(std::clamp(normal.dot(x - origin) / length, 0., 1.));
+    particle = particle_weights(overlap, node, 0.05);
+    for (const auto &x : overlap.reference_position)
+      distance.push_back(normal.dot(x - origin));
+  }
+
+  double length; ///< over which they grow [m]
+  Eigen::Vector3d normal;
+  std::vector<double> node, particle, distance; ///< the last: of the particles from the edge [m]
+};
+
+double mean_diameter(const Overlap &overlap)
+{
+  double sum = 0.;
+  for (const double volume : overlap.particle_volume)
+    sum += std::cbrt(6. * volume / std::numbers::pi);
+  return sum / overlap.n_particles();
+}
+
+} // namespace
+
+TEST_CASE("the grains held at an edge are those within its depth")
+{
+  const Overlap overlap = test::block(3, 40);
+  const LinearWeights weights(overlap, 3);
+  const double depth = GENERATE(0.5, 1.5, 3.);
+  const HeldEdge edge(overlap, weights.node, weights.particle, {.depth = depth});
+  std::vector<int> expected;
+  for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
+    if (weights.distance[particle] < depth * mean_diameter(overlap))
+      expected.push_back(static_cast<int>(particle));
+  REQUIRE(expected.size() > 10);
+  CHECK(std::vector<int>(edge.particles().begin(), edge.particles().end()) == expected);
+  CHECK(HeldEdge(overlap, weights.node, weights.particle, {.depth = 0.}).size() == 0);
+}
+
+TEST_CASE("springs and dead loads of a held edge are the gradient of their energy")
+{
+  const Overlap overlap = test::block(2, 20);
+  const LinearWeights weights(overlap, 2);
+  HeldEdge edge(overlap, weights.node, weights.particle, {.depth = 1., .stiffness = 1e12});
+  REQUIRE(edge.size() > 5);
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(-1e-6, 1e-6);
+  const auto vector = [&] { return Eigen::Vector3d(uniform(random), uniform(random), uniform(random)); };
+  std::vector<Eigen::Vector3d> difference(overlap.n_particles());
+  for (auto &d : difference)
+    d = vector();
+  for (auto &load : edge.dead_load)
+    load = 1e3 * vector();
+  const auto energy_and = [&](std::vector<Eigen::Vector3d> &force)
+  {
+    force.assign(overlap.n_particles(), Eigen::Vector3d::Zero());
+    return edge.add_springs(difference, force) + edge.add_dead_loads(difference, force);
+  };
+  std::vector<Eigen::Vector3d> force, ignored;
+  energy_and(force);
+  std::size_t n_free = 0;
+  for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
+    n_free += force[particle] == Eigen::Vector3d::Zero();
+  CHECK(n_free == overlap.n_particles() - edge.size());
+
+  // The energy is quadratic: central differences of any width are exact but for rounding.
+  for (const int particle : edge.particles())
+    for (int d = 0; d < 3; ++d)
+    {
+      constexpr double h = 1e-6;
+      difference[particle][d] += h;
+      const double above = energy_and(ignored);
+      difference[particle][d] -= 2. * h;
+      const double below = energy_and(ignored);
+      difference[particle][d] += h;
+      CHECK(force[particle][d] == Approx((below - above) / (2. * h)).epsilon(1e-6).margin(1e-9));
+    }
+  // A spring has the weight: w V k.
+  const int first = edge.particles()[0];
+  std::vector<Eigen::Vector3d> of_springs(overlap.n_particles(), Eigen::Vector3d::Zero());
+  edge.add_springs(difference, of_springs);
+  CHECK(
+      (of_springs[first] + 1e12 * weights.particle[first] * overlap.particle_volume[first] * difference[first]).norm() <
+      1e-12 * of_springs[first].norm());
+}
+
+TEST_CASE("the stable step of a coupling knows the stiffness of its edge and not its dead loads")
+{
+  // So stiff that it alone counts, on nodes that do not move: omega^2 = V k / m for each grain by itself.
+  const Overlap overlap = test::block(1, 12);
+  const LinearWeights weights(overlap, 1);
+  HeldEdge edge(overlap, weights.node, weights.particle, {.depth = 2., .stiffness = 1e18});
+  for (auto &load : edge.dead_load)
+    load = Eigen::Vector3d(1e3, 2e3, 3e3);
+  PenaltyCoupling coupling(overlap, Projection::lumped, 1e8);
+  coupling.hold(edge);
+  constexpr double density = 2650.;
+  std::vector<double> mass;
+  for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
+    mass.push_back(density * weights.particle[particle] * overlap.particle_volume[particle]);
+  const std::vector<double> fe_mass(test::n_dofs(overlap), 1.);
+  const std::vector<std::uint8_t> fixed(test::n_dofs(overlap), 1);
+  CHECK(coupling.stable_time_step({mass, fe_mass, fixed}) == Approx(2. / std::sqrt(1e18 / density)).epsilon(2e-3));
+}
+
+TEST_CASE("an edge that makes no sense is refused")
+{
+  CHECK_THROWS_WITH(EdgeParameters{.depth = -1.}.validate(), Catch::Contains("depth") && Catch::Contains("-1"));
+  CHECK_THROWS_WITH(EdgeParameters{.stiffness = 0.}.validate(),
+                    Catch::Contains("stiffness") && Catch::Contains("must be positive"));
+}
