@@ -52,6 +52,7 @@ public:
   /// Adds the weights of grains that share the body's space, one a node in [0, 1]: the body's share is what all of them
   /// leave. Call before the first step. Errors as ExplicitBody::set_share() has, for the sum of all weights.
   void add_weights(std::span<const double> nodal_weight);
+  std::span<const double> weights() const { return weight_; } ///< their sum by node; empty where there are no grains
 
 private:
   SolidMover(fe::ExplicitBody &solid, std::unique_ptr<fe::ExplicitBody> &&owner, std::string name);

@@ -29,6 +29,9 @@ public:
   const dem::Simulation *grains() const { return grains_ ? &grains_->simulation() : nullptr; }
   fe::ExplicitBody *body() { return body_ ? &body_->solid() : nullptr; }
   const fe::ExplicitBody *body() const { return body_ ? &body_->solid() : nullptr; }
+  /// Of the grains, by node of the body; empty where they do not share its space.
+  std::span<const double> weight_of_grains() const { return body_ ? body_->weights() : std::span<const double>(); }
+
   ArlequinCoupling *overlap() { return overlap_; }
   const ArlequinCoupling *overlap() const { return overlap_; }
   const PenaltyCoupling *coupling() const { return overlap_ ? &overlap_->penalty() : nullptr; }

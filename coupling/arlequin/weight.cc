@@ -7,6 +7,12 @@
 namespace bergamo::coupling
 {
 
+double weight_at(const WeightShape shape, const double share)
+{
+  const double s = std::clamp(share, 0., 1.);
+  return shape == WeightShape::linear ? s : s * s * (3. - 2. * s);
+}
+
 std::vector<double> particle_weights(const Overlap &overlap, const std::span<const double> node_weight,
                                      const double min_weight)
 {

@@ -58,6 +58,7 @@ int TriaxialRun::go()
   run.open();
   if ((packing && !pack()) || !load())
     return run.stop();
+  write_profile(run.folder().file("stress_profile.csv"), now.profile);
   return run.finish(summary(), {"two_scale_triaxial/plot.py", "energy.py", "picture.py"});
 }
 
@@ -135,6 +136,7 @@ Summary TriaxialRun::summary() const
   for (int d = 0; d < 3; ++d)
     summary.set("stress_" + std::to_string(d + 1) + "_Pa", now.stress[d], "Pa");
   summary.set("coupling_difference_m", now.coupling_difference, "m");
+  summary.set("stress_3_unevenness", coupling::unevenness(now.profile));
   return summary;
 }
 

@@ -30,6 +30,8 @@ void TriaxialParameters::declare(ParameterFile &file)
            Range::between(1, 200));
   file.add("Model", "overlap layers", overlap_layers, "of these, the layers shared with the grains",
            Range::between(1, 200));
+  file.add("Model", "weight", weight, "how the grains' weights grow through the overlap",
+           {{"linear", coupling::WeightShape::linear}, {"smooth", coupling::WeightShape::smooth}});
   file.add("Model", "bending elements", bending_elements,
            "one law for each hexahedron, and a stiffness of its own where it bends");
 

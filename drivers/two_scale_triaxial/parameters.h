@@ -31,7 +31,8 @@ struct TriaxialParameters
   unsigned int elements_per_edge = 5;
   unsigned int continuum_layers = 3; ///< of elements, from the bottom
   unsigned int overlap_layers = 1;   ///< of these, shared with the grains
-  bool bending_elements = false;     ///< see fe::Hourglass
+  coupling::WeightShape weight = coupling::WeightShape::linear;
+  bool bending_elements = false; ///< see fe::Hourglass
 
   dem::GrainDistribution distribution;
   dem::SimulationParameters simulation; ///< of the loading

@@ -90,7 +90,7 @@ void Specimen::join(const std::vector<Vec3> &reference_by_id)
   const double top = parameters.overlap_top(cube), bottom = parameters.overlap_bottom(cube);
   std::vector<double> weight;
   for (const auto &x : model.body()->node_position())
-    weight.push_back(std::clamp((x[2] - bottom) / (top - bottom), 0., 1.));
+    weight.push_back(coupling::weight_at(parameters.weight, (x[2] - bottom) / (top - bottom)));
   model.join(parameters.coupling, weight, reference_by_id);
 }
 
@@ -126,6 +126,8 @@ SpecimenSample Specimen::measure(const double time) const
                         .stress = stress(),
                         .energy = coupling::energy_of(model)};
   sample.coupling_difference = model.penalty_state().largest_difference;
+  sample.profile = coupling::stress_profile(model, {cube.low, cube.low + edges.cwiseProduct(Vec3::Ones() + strain)},
+                                            parameters.elements_per_edge);
   if (!grains)
     return sample;
   sample.coordination_number = dem::mean_coordination(grains->contacts, grains->particles.size());

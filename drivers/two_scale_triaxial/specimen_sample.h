@@ -1,7 +1,11 @@
 #pragma once
 
 #include "coupling/adapter/model_energy.h"
+#include "coupling/adapter/stress_profile.h"
 #include "drivers/common/run/measured_columns.h"
+
+#include <filesystem>
+#include <vector>
 
 namespace bergamo::driver
 {
@@ -16,6 +20,7 @@ struct SpecimenSample
   double residual = 0.;                                  ///< of the energy's balance since the first sample [J]
   double coordination_number = 0., largest_overlap = 0.; ///< of the grains; the overlap over the smaller radius
   double coupling_difference = 0.;                       ///< largest, between both models' displacements [m]
+  std::vector<coupling::SlabStress> profile;             ///< of the cube, a slab a layer of elements
 
   Table table() const
   {
@@ -31,9 +36,13 @@ struct SpecimenSample
     table.add({{"energy_residual_J", [this] { return residual; }},
                {"coordination_number", [this] { return coordination_number; }},
                {"max_overlap_over_radius", [this] { return largest_overlap; }},
-               {"coupling_difference_m", [this] { return coupling_difference; }}});
+               {"coupling_difference_m", [this] { return coupling_difference; }},
+               {"stress_3_unevenness", [this] { return coupling::unevenness(profile); }}});
     return table;
   }
 };
+
+/// Stresses of both models with their weights, slab by slab, as stress_profile.csv.
+void write_profile(const std::filesystem::path &path, const std::vector<coupling::SlabStress> &profile);
 
 } // namespace bergamo::driver

@@ -41,3 +41,19 @@ TEST_CASE("bad weights are named")
   node_weight.pop_back();
   CHECK_THROWS_WITH(particle_weights(overlap, node_weight), Catch::Contains("7 weights for 8"));
 }
+
+TEST_CASE("weights grow from 0 to 1 through an overlap, smoothly without slope at its ends")
+{
+  for (const WeightShape shape : {WeightShape::linear, WeightShape::smooth})
+  {
+    CHECK(weight_at(shape, -0.5) == 0.);
+    CHECK(weight_at(shape, 0.) == 0.);
+    CHECK(weight_at(shape, 0.5) == 0.5);
+    CHECK(weight_at(shape, 1.) == 1.);
+    CHECK(weight_at(shape, 1.5) == 1.);
+    // Both models have the same shape, each from its own side.
+    CHECK(weight_at(shape, 0.2) + weight_at(shape, 0.8) == Approx(1.).epsilon(1e-15));
+  }
+  CHECK(weight_at(WeightShape::linear, 0.25) == 0.25);
+  CHECK(weight_at(WeightShape::smooth, 1e-4) == Approx(3e-8).epsilon(1e-3));
+}

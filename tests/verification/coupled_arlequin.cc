@@ -5,6 +5,7 @@
 
 #include "coupling/adapter/dealii_adapter.h"
 #include "coupling/adapter/model_energy.h"
+#include "coupling/adapter/stress_profile.h"
 #include "coupling/adapter/two_scale_model.h"
 #include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
@@ -279,6 +280,14 @@ TwoScaleModel make_pressed_model(const coupling::EdgeParameters &edge_parameters
   return model;
 }
 
+/// The cube of both models.
+dem::Box box_of(const TwoScaleModel &model)
+{
+  const auto &walls = model.grains()->walls; // without the floor
+  return {Vec3(walls[0].point[0], walls[2].point[1], model.body()->node_position()[0][2]),
+          Vec3(walls[1].point[0], walls[3].point[1], walls[4].point[2])};
+}
+
 /// Largest distance of a coupled grain from where it was in the packing [m].
 double largest_path(const TwoScaleModel &model)
 {
@@ -323,6 +332,19 @@ TEST_CASE("pressed grains of which the lower part became a continuum stay where 
   CHECK(path < 1e-6);
   CHECK(largest_path(loose) > 5. * path);
   CHECK(std::abs(force_above(held) / start - 1.) < 0.03);
+
+  // Through grains, overlap and continuum the normal stress is the force above over the area: a column at rest without
+  // weight. Where grains are alone it is so exactly, by equilibrium; what may differ is the overlap of 2.4 grains.
+  const dem::Box box = box_of(held);
+  const std::vector<coupling::SlabStress> profile = coupling::stress_profile(held, box, 3);
+  const double above = -force_above(held) * box.edges()[2] / box.volume();
+  CAPTURE(above, profile[0].total()[2], profile[1].total()[2], profile[2].total()[2]);
+  CHECK(profile[0].grains == Vec3::Zero());
+  CHECK(profile[2].continuum == Vec3::Zero());
+  CHECK(profile[2].total()[2] == Approx(above).epsilon(2e-3));
+  CHECK(profile[1].grains[2] < 0.2 * above); // both are pressed
+  CHECK(profile[1].continuum[2] < 0.2 * above);
+  CHECK(coupling::unevenness(profile) < 0.05);
 }
 
 TEST_CASE("under pressure the forces of an overlap balance over both models, with their moments")

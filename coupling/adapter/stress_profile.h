@@ -1,0 +1,31 @@
+#pragma once
+
+#include "coupling/adapter/two_scale_model.h"
+#include "dem/packing/space.h"
+
+#include <vector>
+
+namespace bergamo::coupling
+{
+
+/// Mean stresses in a slab across z, of both models with their weights: where they share the space, their sum is what
+/// the material bears. Components xx, yy, zz, tension positive [Pa].
+struct SlabStress
+{
+  double low = 0., high = 0.; ///< heights [m]
+  Vec3 grains = Vec3::Zero(); ///< of the contacts, each with its weight, by the part of its branch in the slab
+  Vec3 continuum = Vec3::Zero();
+
+  Vec3 total() const { return grains + continuum; }
+};
+
+/// Slabs of equal height from the bottom to the top of a box. The grains lie where they are, elements in their
+/// reference configuration, with their mean stress and the mean of their nodes' shares. Of the present step, once its
+/// forces are known. @param n_slabs best as many as layers of elements; @throws ConfigError for none
+std::vector<SlabStress> stress_profile(const TwoScaleModel &model, const dem::Box &box, unsigned int n_slabs);
+
+/// Largest difference between the slabs' zz, over their mean. In a column at rest that bears no weight it is 0 for a
+/// joint that does not show.
+double unevenness(const std::vector<SlabStress> &profile);
+
+} // namespace bergamo::coupling
