@@ -1,10 +1,16 @@
 #include "drivers/common/continuum_parameters.h"
 #include "drivers/common/coupling_parameters.h"
+#include "drivers/common/grading_parameters.h"
 #include "drivers/common/grain_parameters.h"
 #include "drivers/common/loading_parameters.h"
 #include "drivers/common/output_parameters.h"
+#include "drivers/common/stage_parameters.h"
 
 #include <catch2/catch.hpp>
+
+#include <string>
+#include <utility>
+#include <variant>
 
 using namespace bergamo;
 using namespace bergamo::driver;
@@ -47,6 +53,41 @@ TEST_CASE("parameters of the library get what the file says")
   CHECK(output.n_samples == 2);
   CHECK(output.n_pictures == 3);
   CHECK(output.snapshot_interval == 4.);
+}
+
+TEST_CASE("a stage goes the path that the file names")
+{
+  StageParameters parameters;
+  ParameterFile file("test");
+  parameters.declare(file, "Stage 1");
+  CHECK_FALSE(parameters.is_used());
+  using dem::LoadingPath;
+  for (const auto &[name, path] : {std::pair{"isotropic", LoadingPath::isotropic},
+                                   {"triaxial", LoadingPath::triaxial},
+                                   {"true triaxial", LoadingPath::true_triaxial},
+                                   {"constant volume", LoadingPath::constant_volume},
+                                   {"constant pressure", LoadingPath::constant_pressure}})
+  {
+    file.set(std::string("Stage 1/path=") + name);
+    CHECK(parameters.is_used());
+    CHECK(parameters.stage().path == path);
+  }
+}
+
+TEST_CASE("uniform sizes get what the file says")
+{
+  GradingParameters sizes;
+  ParameterFile file("test");
+  sizes.declare(file);
+  for (const char *assignment :
+       {"Grains/sizes=uniform", "Grains/Uniform/smallest diameter=0.25", "Grains/Uniform/largest diameter=0.5",
+        "Grains/Shapes/elongation=2", "Grains/Shapes/angularity=0.125"})
+    file.set(assignment);
+  const auto uniform = std::get<dem::UniformSizes>(sizes.grading());
+  CHECK(uniform.smallest_diameter == 0.25);
+  CHECK(uniform.largest_diameter == 0.5);
+  CHECK(uniform.shapes.elongation == 2.);
+  CHECK(uniform.shapes.angularity == 0.125);
 }
 
 TEST_CASE("a material gets what the file says, in its own section")

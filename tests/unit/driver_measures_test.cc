@@ -5,6 +5,8 @@
 #include "drivers/common/run/measured_columns.h"
 #include "drivers/common/run/model_pictures.h"
 #include "drivers/common/run/snapshot.h"
+#include "fe_dealii/explicit_body.h"
+#include "fe_dealii/mesh/box_mesh.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -142,4 +144,10 @@ TEST_CASE("pictures are of the models that are there")
   TemporaryFolder folder;
   pictures[0].second(folder / "grains.vtu");
   CHECK_THAT(content_of(folder / "grains.vtu"), Contains("weight") && Contains("resultant_force"));
+  const fe::ExplicitBody body = fe::make_box_body({{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}, {});
+  const std::vector<Picture> alone = pictures_of(nullptr, &body), both = pictures_of(&grains, &body);
+  REQUIRE(alone.size() == 1);
+  CHECK(alone[0].first == "continuum");
+  REQUIRE(both.size() == 2);
+  CHECK(both[1].first == "continuum");
 }

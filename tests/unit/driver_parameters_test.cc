@@ -103,6 +103,18 @@ TEST_CASE("nearest name finds a misspelt name and stays silent for a strange one
   CHECK(nearest_name("ab", std::vector<std::string>{"x"}).empty());
 }
 
+TEST_CASE("true and yes are one, false and no the other")
+{
+  Parameters p;
+  for (const bool is_true : {false, true})
+    for (const std::string word : is_true ? std::array{"true", "yes"} : std::array{"false", "no"})
+    {
+      p.values.gravity = !is_true;
+      p.file.set("Run/gravity=" + word);
+      CHECK(p.values.gravity == is_true);
+    }
+}
+
 TEST_CASE("a parameter file is read into the variables")
 {
   Parameters p;

@@ -14,7 +14,8 @@ TEST_CASE("a duration takes as many steps as begin in it, one at least")
     return steps_over({"Loading/time", duration}, {"Loading/time step", step});
   };
   CHECK(steps(1., 0.3) == 4);
-  CHECK(steps(0.3, 0.1) == 3); // 0.3 / 0.1 is a rounding above 3
+  CHECK(steps(0.3, 0.1) == 3);   // the quotient is a rounding below 3
+  CHECK(steps(0.9, 0.03) == 30); // and here above 30
   CHECK(steps(0.1, 1.) == 1);
   CHECK(steps(1e6, 1e-9) == 1000000000000000);
   for (const double duration : {1e9, 1e30, std::numeric_limits<double>::infinity()})
