@@ -80,7 +80,8 @@ void ArlequinCoupling::apply()
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
   {
     const auto i = grains.index_of(overlap.particle_id[k]);
-    p.external_force[i] += particle_force_[k] + transfer_.force[k];
+    particle_force_[k] += transfer_.force[k];
+    p.external_force[i] += particle_force_[k];
     p.external_torque[i] += transfer_.torque[k];
   }
   has_started_ = 1;

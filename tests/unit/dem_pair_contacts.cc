@@ -41,23 +41,27 @@ TEST_CASE("what each of two bodies would have of a contact by its own weight is 
 {
   const Threads one_thread(1);
   // The contact counts 0.5 times; by their own weights the bodies would have 0.2 and 0.8 of its force. Searched in the
-  // first step, followed in the others.
-  Simulation plain = two_spheres(1., 1.), weighted = two_spheres(0.2, 0.8);
-  CHECK_FALSE(plain.particles.are_weighted());
+  // first step, followed in the others, while they roll over one another.
+  CHECK_FALSE(two_spheres(1., 1.).particles.are_weighted());
+  Simulation pair = two_spheres(0.2, 0.8);
   for (int step = 0; step < 3; ++step)
   {
-    plain.particles.velocity = weighted.particles.velocity = {Vec3(0.001, 0.002, 0.), Vec3(0., 0., 0.)};
-    plain.compute_forces();
-    weighted.compute_forces();
-    const auto &p = weighted.particles;
-    const Vec3 force = plain.particles.force[0], torque = plain.particles.torque[1];
-    REQUIRE((step == 0 || torque.norm() > 0.));
-    CHECK((p.transfer_force[0] + 0.3 * force).norm() < 1e-12 * force.norm());
-    CHECK((p.transfer_force[1] + 0.3 * force).norm() < 1e-12 * force.norm());
-    CHECK((p.transfer_torque[1] - 0.3 * torque).norm() <= 1e-12 * torque.norm());
-    plain.drift();
-    weighted.drift();
-    plain.particles.position = weighted.particles.position;
+    pair.particles.velocity = {Vec3(0.001, 0.002, 0.), Vec3::Zero()};
+    pair.compute_forces();
+    const Particles &p = pair.particles;
+    const TouchingContact contact = pair.contacts.touching(p)[0];
+    const int first = contact.first, second = contact.second;
+    const Vec3 force = contact.state.force(), half_line = 0.5 * contact.branch; // without a weight, on the first
+    const Vec3 torque1 = (half_line + contact.state.point).cross(force),
+               torque2 = (half_line - contact.state.point).cross(force);
+    REQUIRE(force.norm() > 0.01);
+    REQUIRE((step == 0 || torque2.norm() > 1e-6 * force.norm() * half_line.norm()));
+    CHECK((p.transfer_force[first] - (p.weight[first] - 0.5) * force).norm() < 1e-12 * force.norm());
+    CHECK((p.transfer_force[second] + (p.weight[second] - 0.5) * force).norm() < 1e-12 * force.norm());
+    const double size = force.norm() * half_line.norm();
+    CHECK((p.transfer_torque[first] - (p.weight[first] - 0.5) * torque1).norm() < 1e-12 * size);
+    CHECK((p.transfer_torque[second] - (p.weight[second] - 0.5) * torque2).norm() < 1e-12 * size);
+    pair.drift();
   }
 }
 
