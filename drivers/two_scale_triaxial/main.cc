@@ -81,9 +81,7 @@ bool TriaxialRun::pack()
                    {{every_steps(200), [&] { grains.check_finite(); }}}))
     return false;
   packing_steps = grains.n_steps;
-  start = end_packing(grains, parameters.simulation);
-  if (parameters.kind == ModelKind::two_scale)
-    remove_below(grains, parameters.overlap_bottom(start.box));
+  start = end_packing(grains, parameters);
   specimen = std::make_unique<Specimen>(parameters, std::move(packing->grains), start);
   specimen->model.grains()->reset_accounts();
   packing.reset();
@@ -133,10 +131,7 @@ Summary TriaxialRun::summary() const
     summary.set("packing_coordination_number", start.coordination_number);
   }
   specimen->add_figures(summary);
-  for (int d = 0; d < 3; ++d)
-    summary.set("stress_" + std::to_string(d + 1) + "_Pa", now.stress[d], "Pa");
-  summary.set("coupling_difference_m", now.coupling_difference, "m");
-  summary.set("stress_3_unevenness", coupling::unevenness(now.profile));
+  now.add_figures(summary);
   return summary;
 }
 

@@ -12,6 +12,22 @@
 
 namespace bergamo::driver
 {
+namespace
+{
+
+/// Takes out the grains whose centre lies below a height [m], and the floor.
+void remove_below(dem::Simulation &grains, const double height)
+{
+  std::vector<std::int32_t> below;
+  for (std::size_t i = 0; i < grains.particles.size(); ++i)
+    if (grains.particles.position[i][2] < height)
+      below.push_back(static_cast<std::int32_t>(i));
+  grains.remove_wall(4);
+  grains.remove(below);
+  grains.integrate(); // one step: the forces to come are those without them
+}
+
+} // namespace
 
 PackingStage begin_packing(const TriaxialParameters &parameters)
 {
@@ -50,7 +66,7 @@ Stage stage_of(PackingStage &packing, const double aim)
   return stage;
 }
 
-LoadingStart end_packing(dem::Simulation &grains, const dem::SimulationParameters &loading)
+LoadingStart end_packing(dem::Simulation &grains, const TriaxialParameters &parameters)
 {
   LoadingStart start;
   start.box = dem::box_between(grains.walls);
@@ -59,20 +75,11 @@ LoadingStart end_packing(dem::Simulation &grains, const dem::SimulationParameter
   for (dem::PlaneWall &wall : grains.walls)
     wall.velocity.setZero();
   grains.rest();
-  grains.change(loading);
+  grains.change(parameters.simulation);
   start.reference_by_id = dem::positions_by_id(grains.particles);
+  if (parameters.kind == ModelKind::two_scale)
+    remove_below(grains, parameters.overlap_bottom(start.box));
   return start;
-}
-
-void remove_below(dem::Simulation &grains, const double height)
-{
-  std::vector<std::int32_t> below;
-  for (std::size_t i = 0; i < grains.particles.size(); ++i)
-    if (grains.particles.position[i][2] < height)
-      below.push_back(static_cast<std::int32_t>(i));
-  grains.remove_wall(4);
-  grains.remove(below);
-  grains.integrate(); // one step: the forces to come are those without them
 }
 
 } // namespace bergamo::driver

@@ -37,10 +37,9 @@ struct LoadingStart
   double coordination_number = 0.; ///< contacts a grain
 };
 
-/// Stops a packing's grains and walls where they are, for the loading.
-LoadingStart end_packing(dem::Simulation &grains, const dem::SimulationParameters &loading);
-
-/// Takes out the grains whose centre lies below a height [m], and the floor: a continuum is there instead.
-void remove_below(dem::Simulation &grains, double height);
+/// Stops a packing's grains and walls where they are, for the loading. Where a continuum takes the lower part, the
+/// grains with their centre below the overlap are taken out, and the floor: those above are the grains of a cube of
+/// grains alone.
+LoadingStart end_packing(dem::Simulation &grains, const TriaxialParameters &parameters);
 
 } // namespace bergamo::driver

@@ -7,6 +7,14 @@
 namespace bergamo::driver
 {
 
+void SpecimenSample::add_figures(Summary &summary) const
+{
+  for (int d = 0; d < 3; ++d)
+    summary.set("stress_" + std::to_string(d + 1) + "_Pa", stress[d], "Pa");
+  summary.set("coupling_difference_m", coupling_difference, "m");
+  summary.set("stress_3_unevenness", coupling::unevenness(profile));
+}
+
 void write_profile(const std::filesystem::path &path, const std::vector<coupling::SlabStress> &profile)
 {
   std::vector<std::string> names{"low_m", "high_m"};

@@ -3,6 +3,7 @@
 #include "coupling/adapter/model_energy.h"
 #include "coupling/adapter/stress_profile.h"
 #include "drivers/common/run/measured_columns.h"
+#include "drivers/common/summary.h"
 
 #include <filesystem>
 #include <vector>
@@ -21,6 +22,8 @@ struct SpecimenSample
   double coordination_number = 0., largest_overlap = 0.; ///< of the grains; the overlap over the smaller radius
   double coupling_difference = 0.;                       ///< largest, between both models' displacements [m]
   std::vector<coupling::SlabStress> profile;             ///< of the cube, a slab a layer of elements
+
+  void add_figures(Summary &summary) const; ///< stresses, and how much the joint shows
 
   Table table() const
   {
