@@ -323,14 +323,24 @@ TEST_CASE("pressed grains of which the lower part became a continuum stay where 
   const auto force_above = [](const TwoScaleModel &model) { return model.grains()->walls[4].force[2]; };
   held.compute_forces();
   const double start = force_above(held);
+  double unbalanced = 0., borne = 0.;
+  for (const int coupled : held.coupling()->edge().particles())
+  {
+    const dem::Particles &p = held.grains()->particles;
+    const auto i = held.grains()->index_of(held.coupling()->overlap().particle_id[coupled]);
+    unbalanced += (p.force[i] + p.external_force[i]).norm();
+    borne += p.force[i].norm();
+  }
+  CHECK(unbalanced <
+        0.01 * borne); // dead loads for the contacts that are gone; the step since has moved grains a little
   run(held, 4000);
   run(loose, 4000);
   held.compute_forces();
   loose.compute_forces();
   const double path = largest_path(held);
   CAPTURE(path, largest_path(loose), start, force_above(held), force_above(loose));
-  CHECK(path < 1e-6);
-  CHECK(largest_path(loose) > 5. * path);
+  CHECK(path < 3e-6); // grains between loose contacts go farthest
+  CHECK(largest_path(loose) > 2. * path);
   CHECK(std::abs(force_above(held) / start - 1.) < 0.03);
 
   // Through grains, overlap and continuum the normal stress is the force above over the area: a column at rest without
