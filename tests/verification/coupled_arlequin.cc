@@ -357,7 +357,7 @@ TEST_CASE("pressed grains of which the lower part became a continuum stay where 
   CHECK(coupling::unevenness(profile) < 0.05);
 }
 
-TEST_CASE("under pressure the forces of an overlap balance over both models, with their moments")
+TEST_CASE("under pressure an overlap keeps momentum and closes its account with the work of the transfer")
 {
   TwoScaleModel model = make_pressed_model({});
   run(model, 300);
@@ -390,14 +390,8 @@ TEST_CASE("under pressure the forces of an overlap balance over both models, wit
   REQUIRE(of_couples > 1e-3 * turning);
   CHECK(sum.norm() < 1e-13 * size); // rounding of some hundred terms
   CHECK(moment.norm() < 1e-13 * turning);
-}
 
-TEST_CASE("the account of an overlap under load closes with the work of the transfer")
-{
   // The upper wall presses at 1 mm/s on a packing of 6 mm and 4e8 Pa: some ten kPa in a few thousand steps.
-  TwoScaleModel model = make_pressed_model({});
-  run(model, 10);
-  model.compute_forces();
   model.kick();
   const coupling::ModelEnergy start = coupling::energy_of(model);
   model.drift();
