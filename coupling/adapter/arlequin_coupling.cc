@@ -34,6 +34,10 @@ Overlap overlap_of(const dem::Particles &p, const SolidMover &body, const std::s
 PenaltyCoupling set_up(GrainsMover &grains, SolidMover &body, const CouplingParameters &parameters,
                        const OverlapPlace &place)
 {
+  if (!(parameters.transfer_time > 0.) || !std::isfinite(parameters.transfer_time))
+    reject("the transfer time of an overlap is ", parameters.transfer_time,
+           " s; it must be positive: long beside the oscillations of grains and elements, short beside the loading");
+  parameters.edge.validate();
   const Overlap overlap = overlap_of(grains.simulation().particles, body, place.reference_by_id);
   std::vector<double> node_weight;
   for (const int node : overlap.nodes)
@@ -42,9 +46,6 @@ PenaltyCoupling set_up(GrainsMover &grains, SolidMover &body, const CouplingPara
   grains.set_weights(overlap.particle_id, weight);
   body.add_weights(place.nodal_weight);
   PenaltyCoupling penalty(overlap, parameters.projection, parameters.penalty);
-  if (!(parameters.transfer_time > 0.) || !std::isfinite(parameters.transfer_time))
-    reject("the transfer time of an overlap is ", parameters.transfer_time,
-           " s; it must be positive: long beside the oscillations of grains and elements, short beside the loading");
   penalty.hold(HeldEdge(overlap, node_weight, weight, parameters.edge));
   return penalty;
 }

@@ -106,8 +106,9 @@ Exchange Simulation::add(const Particles &added)
   added.check(p.materials.size());
   if (forces_are_known)
     throw ConfigError("grains are added between steps, not between the forces of a step and its drift");
-  if (added.external_force.size() != 0)
-    throw ConfigError("grains that are added bring no external forces: set those of all grains afterwards");
+  if (!added.external_force.empty() || !added.external_torque.empty() || added.are_weighted())
+    throw ConfigError(
+        "grains that are added bring no external forces, torques or transfers: set those of all grains afterwards");
   Exchange come;
   for (std::size_t i = 0; i < added.size(); ++i)
   {
