@@ -231,6 +231,7 @@ std::unique_ptr<dem::Simulation> make_pressed_packing()
       parameters, dem::add_at_random(grains, loose, parameters.grain().density, generator()), dem::box_walls(loose));
   dem::CompressionParameters pressing;
   pressing.pressure = confining_pressure;
+  pressing.pressure_tolerance = pressing.force_tolerance = 0.03;
   dem::Compression compression(pressing);
   while (!compression.is_finished())
   {
