@@ -71,9 +71,9 @@ void ArlequinCoupling::apply()
   const Overlap &overlap = penalty_.overlap();
   follow_transfer();
   if (has_started_ == 0)
-    balance_edge();
+    start();
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-    particle_displacement_[k] = p.position[grains.index_of(overlap.particle_id[k])] - overlap.reference_position[k];
+    particle_displacement_[k] = p.position[grains.index_of(overlap.particle_id[k])] - resting_place_[k];
   const std::span<double> fe_force = body_.solid().external_force();
   state_ = penalty_.compute(particle_displacement_, body_.solid().displacement(), particle_force_, fe_force);
   for (std::size_t dof = 0; dof < fe_force.size(); ++dof)
@@ -86,6 +86,21 @@ void ArlequinCoupling::apply()
     p.external_torque[i] += transfer_.torque[k];
   }
   has_started_ = 1;
+}
+
+void ArlequinCoupling::start()
+{
+  balance_edge();
+  const dem::Simulation &grains = grains_.simulation();
+  const Overlap &overlap = penalty_.overlap();
+  const std::span<const double> displacement = std::as_const(body_.solid()).displacement();
+  std::vector<Vec3> of_nodes;
+  for (const int node : overlap.nodes)
+    of_nodes.push_back(Eigen::Map<const Vec3>(&displacement[3 * node]));
+  resting_place_.resize(overlap.n_particles());
+  penalty_.projection().interpolate(of_nodes, resting_place_);
+  for (std::size_t k = 0; k < overlap.n_particles(); ++k)
+    resting_place_[k] = grains.particles.position[grains.index_of(overlap.particle_id[k])] - resting_place_[k];
 }
 
 /// Brings the transfer from the last step to this one, once.

@@ -34,8 +34,9 @@ struct OverlapPlace
 
 /// Grains and a solid that share a part of their space, joined by an Arlequin overlap (Wellmann, 6.1-6.3) with forces
 /// that are blended (WeightTransfer) and an edge that is held (HeldEdge). Several overlaps may lie in one model; no
-/// grain lies in two. Held grains start in equilibrium, if the others do: at the first step they get the dead loads
-/// that keep them where they are.
+/// grain lies in two. The places at the first step are those without a difference, whatever the body's displacement is
+/// by then. Held grains start in equilibrium, if the others do: at the first step they get the dead loads that keep
+/// them where they are.
 class ArlequinCoupling final : public Coupling
 {
 public:
@@ -43,6 +44,9 @@ public:
   /// @throws ConfigError where the overlap is empty or too coarse
   ArlequinCoupling(GrainsMover &grains, SolidMover &body, const CouplingParameters &parameters,
                    const OverlapPlace &place, std::string name = "overlap");
+
+  /// The next step is a first one again: for a body that was brought to rest under the forces of the overlap.
+  void begin() { has_started_ = 0; }
 
   void apply() override;
   void follow(const double time_step) override { drifted_ = time_step; }
@@ -65,6 +69,7 @@ public:
   template <class Self, class Visit>
   static void visit_state(Self &self, Visit &visit)
   {
+    visit("resting_place", self.resting_place_);
     visit("dead_load", self.penalty_.edge().dead_load);
     visit("has_started", self.has_started_);
     visit("drifted", self.drifted_);
@@ -82,6 +87,7 @@ private:
     std::vector<double> on_nodes;    // by degree of freedom [N]
   };
 
+  void start();
   void follow_transfer();
   void balance_edge();
   double work_of(const Transfer &transfer) const;
@@ -92,6 +98,8 @@ private:
   WeightTransfer weight_transfer_;
   double transfer_time_; // [s]
   PenaltyState state_;
+  std::vector<Vec3>
+      resting_place_; // of the coupled particles, without a difference if the body had no displacement [m]
   std::vector<Eigen::Vector3d> particle_displacement_, particle_force_;
   Transfer transfer_;
   double transfer_work_ = 0., drifted_ = 0.; // [J], [s]

@@ -25,6 +25,8 @@ class Slabs
 public:
   Slabs(const dem::Box &box, const unsigned int n) : bottom(box.low[2]), height(box.edges()[2] / n), slabs(n)
   {
+    if (n == 0)
+      reject("a profile of stresses has 0 slabs; give it as many as there are layers of elements");
     for (unsigned int k = 0; k < n; ++k)
     {
       slabs[k].low = bottom + k * height;
@@ -83,8 +85,6 @@ void add_continuum(Slabs &slabs, const fe::ExplicitBody &body, const std::vector
 
 std::vector<SlabStress> stress_profile(const TwoScaleModel &model, const dem::Box &box, const unsigned int n_slabs)
 {
-  if (n_slabs == 0)
-    reject("a profile of stresses has 0 slabs; give it as many as there are layers of elements");
   Slabs slabs(box, n_slabs);
   if (model.grains())
     add_grains(slabs, *model.grains());
@@ -95,6 +95,13 @@ std::vector<SlabStress> stress_profile(const TwoScaleModel &model, const dem::Bo
       share[node] -= model.weight_of_grains()[node];
     add_continuum(slabs, *model.body(), share);
   }
+  return std::move(slabs).all();
+}
+
+std::vector<SlabStress> stress_profile(const dem::Simulation &grains, const dem::Box &box, const unsigned int n_slabs)
+{
+  Slabs slabs(box, n_slabs);
+  add_grains(slabs, grains);
   return std::move(slabs).all();
 }
 

@@ -24,6 +24,9 @@ struct SlabStress
 /// forces are known. @param n_slabs best as many as layers of elements; @throws ConfigError for none
 std::vector<SlabStress> stress_profile(const TwoScaleModel &model, const dem::Box &box, unsigned int n_slabs);
 
+/// Of grains alone, between walls or with a part of them taken out; otherwise as above.
+std::vector<SlabStress> stress_profile(const dem::Simulation &grains, const dem::Box &box, unsigned int n_slabs);
+
 /// Largest difference between the slabs' zz, over their mean. In a column at rest that bears no weight it is 0 for a
 /// joint that does not show.
 double unevenness(const std::vector<SlabStress> &profile);

@@ -35,10 +35,11 @@ int run_with_mpi(const std::function<int()> &job);
 bool read_parameters(ParameterFile &parameters, const CommandLine &command_line);
 
 /// The job of most drivers: reads and checks its parameters, then has a Job made of them go. A set of Parameters has
-/// declare() and validate(); a Job is made of it, the command line and the resolved text of the parameters, and its
-/// go() gives the exit status. @param title first line of the parameter file @param needs_mpi see run_with_mpi()
+/// declare() and validate(), and where some of them ask for MPI needs_mpi(), see run_with_mpi(); a Job is made of it,
+/// the command line and the resolved text of the parameters, and its go() gives the exit status. @param title first
+/// line of the parameter file
 template <class Parameters, class Job>
-int run_job(const std::string &title, const CommandLine &command_line, const bool needs_mpi = false)
+int run_job(const std::string &title, const CommandLine &command_line)
 {
   Parameters parameters;
   ParameterFile file(title);
@@ -47,7 +48,10 @@ int run_job(const std::string &title, const CommandLine &command_line, const boo
     return done;
   parameters.validate();
   const auto go = [&] { return Job(parameters, command_line, file.resolved_text()).go(); };
-  return needs_mpi ? run_with_mpi(go) : go();
+  if constexpr (requires { parameters.needs_mpi(); })
+    return parameters.needs_mpi() ? run_with_mpi(go) : go();
+  else
+    return go();
 }
 
 } // namespace bergamo::driver

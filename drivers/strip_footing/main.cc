@@ -146,5 +146,5 @@ int main(int argc, char **argv)
       {"strip_footing",
        "Presses a strip footing into the ground in plane strain, from rest to the limit load: closed form beside it."},
       [](const CommandLine &command_line)
-      { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line, true); });
+      { return run_job<FootingParameters, FootingRun>("Strip footing on elastoplastic ground", command_line); });
 }

@@ -66,6 +66,7 @@ struct FootingParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+  bool needs_mpi() const { return true; } ///< its ground starts at rest
 
   /// Edge of an element [m]. The settlement falls from that of the last node held to nothing over the element beside
   /// the footing, so that half of that element counts as covered (as in Itasca's FLAC).

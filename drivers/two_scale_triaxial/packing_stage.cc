@@ -1,5 +1,6 @@
 #include "drivers/two_scale_triaxial/packing_stage.h"
 
+#include "coupling/adapter/stress_profile.h"
 #include "dem/measure/coordination.h"
 #include "dem/measure/solid_fraction.h"
 #include "dem/packing/grading.h"
@@ -25,6 +26,20 @@ void remove_below(dem::Simulation &grains, const double height)
   grains.remove_wall(4);
   grains.remove(below);
   grains.integrate(); // one step: the forces to come are those without them
+}
+
+std::vector<Vec3> stress_by_layer(const dem::Simulation &grains, const dem::Box &box, const unsigned int n_layers)
+{
+  std::vector<Vec3> stress;
+  double sum = 0.;
+  for (const coupling::SlabStress &slab : coupling::stress_profile(grains, box, n_layers))
+  {
+    stress.push_back(slab.grains);
+    sum += slab.grains[2];
+  }
+  for (Vec3 &layer : stress)
+    layer[2] = sum / n_layers;
+  return stress;
 }
 
 } // namespace
@@ -72,6 +87,7 @@ LoadingStart end_packing(dem::Simulation &grains, const TriaxialParameters &para
   start.box = dem::box_between(grains.walls);
   start.solid_fraction = dem::solid_fraction(grains.particles, start.box.volume());
   start.coordination_number = dem::mean_coordination(grains.contacts, grains.particles.size());
+  start.stress_by_layer = stress_by_layer(grains, start.box, parameters.elements_per_edge);
   for (dem::PlaneWall &wall : grains.walls)
     wall.velocity.setZero();
   grains.rest();

@@ -69,6 +69,7 @@ struct TriaxialParameters
   {
     return kind == ModelKind::grains ? "grains" : kind == ModelKind::continuum ? "continuum" : "two-scale";
   }
+  bool needs_mpi() const { return kind == ModelKind::two_scale; } ///< to find the equilibrium it starts from
   bool has_grains() const { return kind != ModelKind::continuum; }
   bool has_continuum() const { return kind != ModelKind::grains; }
   double element_size() const { return edge / elements_per_edge; } ///< nominal [m]

@@ -4,6 +4,7 @@
 #include "dem/measure/contact_list.h"
 #include "dem/measure/coordination.h"
 #include "drivers/common/run/visit_models.h"
+#include "fe_dealii/equilibrium/static_equilibrium.h"
 #include "fe_dealii/stable_step.h"
 
 #include <algorithm>
@@ -15,8 +16,23 @@ namespace bergamo::driver
 namespace
 {
 
-/// The continuum's part of the cube: it starts under the packing's pressure, so that the overlap starts in equilibrium.
-std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters, const dem::Box &cube)
+/// Each layer with its own stress; with none given, all under the packing's pressure.
+fe::InitialStress initial_stress(const TriaxialParameters &parameters, const LoadingStart &start)
+{
+  if (start.stress_by_layer.empty())
+    return fe::uniform_pressure(parameters.compression.pressure);
+  return [layers = start.stress_by_layer, low = start.box.low[2],
+          height = start.box.edges()[2] / static_cast<double>(start.stress_by_layer.size())](const auto &place)
+  {
+    const auto layer = static_cast<std::ptrdiff_t>(std::floor((place[2] - low) / height));
+    const Vec3 &stress = layers[std::clamp<std::ptrdiff_t>(layer, 0, std::ssize(layers) - 1)];
+    return fe::Stress{stress[0], stress[1], stress[2], 0., 0., 0.};
+  };
+}
+
+/// The continuum's part of the cube: it starts with the stresses of the grains whose place it takes, so that the
+/// overlap and the walls start in equilibrium.
+std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters, const LoadingStart &start)
 {
   if (!parameters.has_continuum())
     return nullptr;
@@ -25,17 +41,17 @@ std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters
   fe::BoxMeshParameters mesh;
   for (int d = 0; d < 3; ++d)
   {
-    mesh.minimum[d] = cube.low[d];
-    mesh.maximum[d] = cube.high[d];
+    mesh.minimum[d] = start.box.low[d];
+    mesh.maximum[d] = start.box.high[d];
   }
-  mesh.maximum[2] = cube.low[2] + cube.edges()[2] * n_layers / n;
+  mesh.maximum[2] = start.box.low[2] + start.box.edges()[2] * n_layers / n;
   mesh.subdivisions = {n, n, n_layers};
 
   fe::ExplicitBodyParameters body;
   body.material = parameters.continuum.material();
   body.hourglass = parameters.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
   body.damping = parameters.continuum_damping;
-  body.initial_stress = fe::uniform_pressure(parameters.compression.pressure);
+  body.initial_stress = initial_stress(parameters, start);
   return std::make_unique<fe::ExplicitBody>(fe::make_box_body(mesh, body));
 }
 
@@ -55,13 +71,14 @@ void require_stable_continuum(const TriaxialParameters &parameters)
     return;
   constexpr double densest = 0.74; // solid fraction; the cube shrinks until the grains bear the pressure
   const double shrinkage = parameters.has_grains() ? std::min(1., parameters.expected_solid_fraction / densest) : 1.;
-  const dem::Box least{Vec3::Zero(), Vec3::Constant(parameters.edge * std::cbrt(shrinkage))};
+  LoadingStart least;
+  least.box = {Vec3::Zero(), Vec3::Constant(parameters.edge * std::cbrt(shrinkage))};
   require_below(fe::stable_step(*make_body(parameters, least)).time_step, parameters.simulation.time_step,
                 parameters.has_grains() ? " if the grains pack as densely as they can" : "");
 }
 
 Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start)
-    : model(std::move(grains), make_body(p, start.box), p.simulation.time_step), parameters(p), cube(start.box),
+    : model(std::move(grains), make_body(p, start), p.simulation.time_step), parameters(p), cube(start.box),
       edges(cube.edges()), step(p.simulation.time_step)
 {
   const bool is_joined = parameters.kind == ModelKind::two_scale;
@@ -92,6 +109,15 @@ void Specimen::join(const std::vector<Vec3> &reference_by_id)
   for (const auto &x : model.body()->node_position())
     weight.push_back(coupling::weight_at(parameters.weight, (x[2] - bottom) / (top - bottom)));
   model.join(parameters.coupling, weight, reference_by_id);
+}
+
+void Specimen::settle()
+{
+  if (!model.overlap())
+    return;
+  model.compute_forces();
+  fe::find_equilibrium(*model.body());
+  model.overlap()->begin();
 }
 
 void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
@@ -182,6 +208,7 @@ void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, Loa
   visit("loading/box_low", start.box.low);
   visit("loading/box_high", start.box.high);
   visit("loading/reference", start.reference_by_id);
+  visit("loading/stress_by_layer", start.stress_by_layer);
   visit("loading/solid_fraction", start.solid_fraction);
   visit("loading/coordination_number", start.coordination_number);
   std::unique_ptr<dem::Simulation> grains;
