@@ -1,10 +1,13 @@
 #include "coupling/adapter/arlequin_coupling.h"
 
 #include "coupling/adapter/dealii_adapter.h"
+#include "coupling/adapter/overlap_setup.h"
+#include "dem/core/error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace bergamo::coupling
@@ -12,56 +15,46 @@ namespace bergamo::coupling
 namespace
 {
 
-/// The overlap of a body and of all grains, in the order of their ids: it is the same after a restart.
-Overlap overlap_of(const dem::Particles &p, const SolidMover &body, const std::span<const Vec3> reference_by_id)
-{
-  std::vector<std::int32_t> order(p.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](const auto i, const auto j) { return p.id[i] < p.id[j]; });
-  std::vector<std::int64_t> id;
-  std::vector<Vec3> reference;
-  std::vector<double> volume;
-  for (const std::int32_t i : order)
-  {
-    id.push_back(p.id[i]);
-    reference.push_back(reference_by_id[p.id[i]]);
-    volume.push_back(p.volume[i]);
-  }
-  return make_overlap(body.solid(), id, reference, volume);
-}
-
 /// Sets the weights of both models on the way.
 PenaltyCoupling set_up(GrainsMover &grains, SolidMover &body, const CouplingParameters &parameters,
                        const OverlapPlace &place)
 {
-  if (!(parameters.transfer_time > 0.) || !std::isfinite(parameters.transfer_time))
-    reject("the transfer time of an overlap is ", parameters.transfer_time,
-           " s; it must be positive: long beside the oscillations of grains and elements, short beside the loading");
-  parameters.edge.validate();
+  parameters.validate();
   const Overlap overlap = overlap_of(grains.simulation().particles, body, place.reference_by_id);
-  std::vector<double> node_weight;
-  for (const int node : overlap.nodes)
-    node_weight.push_back(place.nodal_weight[node]);
-  const std::vector<double> weight = particle_weights(overlap, node_weight, parameters.least_weight);
-  grains.set_weights(overlap.particle_id, weight);
+  const OverlapWeights weights(overlap, place.nodal_weight, parameters.least_weight);
+  grains.set_weights(overlap.particle_id, weights.particle);
   body.add_weights(place.nodal_weight);
   PenaltyCoupling penalty(overlap, parameters.projection, parameters.penalty);
-  penalty.hold(HeldEdge(overlap, node_weight, weight, parameters.edge));
+  penalty.hold(HeldEdge(overlap, weights.node, weights.particle, parameters.edge));
   return penalty;
 }
 
 } // namespace
 
+void CouplingParameters::validate() const
+{
+  if (!(transfer_time > 0.) || !std::isfinite(transfer_time))
+    reject("the transfer time of an overlap is ", transfer_time,
+           " s; it must be positive: long beside the oscillations of grains and elements, short beside the loading");
+  if (!(renewal >= 0.) || !std::isfinite(renewal))
+    reject("the renewal of an overlap is due after ", renewal,
+           " diameters; it must be 0, for never, or positive: a tenth is small beside grains and elements");
+  edge.validate();
+}
+
 ArlequinCoupling::ArlequinCoupling(GrainsMover &grains, SolidMover &body, const CouplingParameters &parameters,
                                    const OverlapPlace &place, std::string name)
     : Coupling(std::move(name)), grains_(grains), body_(body), penalty_(set_up(grains, body, parameters, place)),
-      weight_transfer_(penalty_.overlap()), transfer_time_(parameters.transfer_time),
+      weight_transfer_(penalty_.overlap()), parameters_(parameters),
+      nodal_weight_(place.nodal_weight.begin(), place.nodal_weight.end()),
+      reference_by_id_(place.reference_by_id.begin(), place.reference_by_id.end()),
       particle_displacement_(penalty_.overlap().n_particles()), particle_force_(penalty_.overlap().n_particles())
 {
   dem::Particles &p = grains.simulation().particles;
   for (std::vector<Vec3> *external : {&p.external_force, &p.external_torque})
     if (external->empty())
       external->assign(p.size(), Vec3::Zero());
+  list_uncoupled();
 }
 
 void ArlequinCoupling::apply()
@@ -72,10 +65,8 @@ void ArlequinCoupling::apply()
   follow_transfer();
   if (has_started_ == 0)
     start();
-  for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-    particle_displacement_[k] = p.position[grains.index_of(overlap.particle_id[k])] - resting_place_[k];
   const std::span<double> fe_force = body_.solid().external_force();
-  state_ = penalty_.compute(particle_displacement_, body_.solid().displacement(), particle_force_, fe_force);
+  compute_penalty(fe_force);
   for (std::size_t dof = 0; dof < fe_force.size(); ++dof)
     fe_force[dof] += transfer_.on_nodes[dof];
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
@@ -93,14 +84,92 @@ void ArlequinCoupling::start()
   balance_edge();
   const dem::Simulation &grains = grains_.simulation();
   const Overlap &overlap = penalty_.overlap();
-  const std::span<const double> displacement = std::as_const(body_.solid()).displacement();
-  std::vector<Vec3> of_nodes;
-  for (const int node : overlap.nodes)
-    of_nodes.push_back(Eigen::Map<const Vec3>(&displacement[3 * node]));
-  resting_place_.resize(overlap.n_particles());
-  penalty_.projection().interpolate(of_nodes, resting_place_);
+  resting_place_ = displacement_at(overlap, body_.solid());
   for (std::size_t k = 0; k < overlap.n_particles(); ++k)
     resting_place_[k] = grains.particles.position[grains.index_of(overlap.particle_id[k])] - resting_place_[k];
+}
+
+void ArlequinCoupling::compute_penalty(const std::span<double> fe_force)
+{
+  const dem::Simulation &grains = grains_.simulation();
+  const Overlap &overlap = penalty_.overlap();
+  for (std::size_t k = 0; k < overlap.n_particles(); ++k)
+    particle_displacement_[k] = grains.particles.position[grains.index_of(overlap.particle_id[k])] - resting_place_[k];
+  state_ =
+      penalty_.compute(particle_displacement_, std::as_const(body_.solid()).displacement(), particle_force_, fe_force);
+}
+
+void ArlequinCoupling::follow(const double time_step)
+{
+  drifted_ = time_step;
+  transfer_work_ += 0.5 * drifted_ * work_of(transfer_);
+  if (must_be_renewed())
+    renew();
+}
+
+bool ArlequinCoupling::must_be_renewed() const
+{
+  if (parameters_.renewal == 0.)
+    return false;
+  const double limit = parameters_.renewal * penalty_.overlap().mean_diameter();
+  const dem::Simulation &grains = grains_.simulation();
+  return state_.largest_motion > limit ||
+         std::any_of(uncoupled_.begin(), uncoupled_.end(),
+                     [&](const std::int64_t id) {
+                       return (grains.particles.position[grains.index_of(id)] - reference_by_id_[id]).norm() > limit;
+                     });
+}
+
+void ArlequinCoupling::renew()
+{
+  std::vector<double> ignored(body_.solid().displacement().size(), 0.);
+  compute_penalty(ignored); // the load densities at the present places
+  const dem::Simulation &grains = grains_.simulation();
+  const dem::Particles &p = grains.particles;
+  const std::vector<Vec3> present = reference_places(body_.solid(), p.position);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    reference_by_id_[p.id[i]] = present[i];
+
+  Overlap overlap = overlap_of(p, body_, reference_by_id_);
+  const std::vector<std::int64_t> old_id = penalty_.overlap().particle_id;
+  std::unordered_map<std::int64_t, std::size_t> old_place;
+  for (std::size_t k = 0; k < old_id.size(); ++k)
+    old_place.emplace(old_id[k], k);
+  const std::size_t n = overlap.n_particles();
+  std::vector<Vec3> resting = displacement_at(overlap, body_.solid()), moved(n, Vec3::Zero());
+  Transfer transfer{std::vector<Vec3>(n, Vec3::Zero()), std::vector<Vec3>(n, Vec3::Zero()), {}};
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    const std::int64_t id = overlap.particle_id[k];
+    resting[k] = p.position[grains.index_of(id)] - resting[k];
+    const auto old = old_place.find(id);
+    if (old == old_place.end())
+      continue;
+    moved[k] = resting[k] - resting_place_[old->second];
+    transfer.force[k] = transfer_.force[old->second];
+    transfer.torque[k] = transfer_.torque[old->second];
+  }
+  resting_place_ = std::move(resting);
+  transfer_ = std::move(transfer);
+  grains_.change_weights(old_id, overlap.particle_id,
+                         OverlapWeights(overlap, nodal_weight_, parameters_.least_weight).particle);
+  weight_transfer_ = WeightTransfer(overlap);
+  give_transfer_to_nodes();
+  particle_displacement_.resize(n);
+  particle_force_.resize(n);
+  penalty_.renew(std::move(overlap), moved);
+  list_uncoupled();
+}
+
+/// Those that may come into the elements.
+void ArlequinCoupling::list_uncoupled()
+{
+  const Overlap &overlap = penalty_.overlap();
+  const std::unordered_set<std::int64_t> coupled(overlap.particle_id.begin(), overlap.particle_id.end());
+  uncoupled_.clear();
+  for (const std::int64_t id : grains_.simulation().particles.id)
+    if (!coupled.contains(id))
+      uncoupled_.push_back(id);
 }
 
 /// Brings the transfer from the last step to this one, once.
@@ -111,8 +180,7 @@ void ArlequinCoupling::follow_transfer()
   const dem::Simulation &grains = grains_.simulation();
   const dem::Particles &p = grains.particles;
   const Overlap &overlap = penalty_.overlap();
-  const double work_before = has_started_ != 0 ? work_of(transfer_) : 0.;
-  const double share = has_started_ != 0 ? -std::expm1(-drifted_ / transfer_time_) : 1.;
+  const double share = has_started_ != 0 ? -std::expm1(-drifted_ / parameters_.transfer_time) : 1.;
   transfer_.force.resize(overlap.n_particles(), Vec3::Zero());
   transfer_.torque.resize(overlap.n_particles(), Vec3::Zero());
   if (p.are_weighted())
@@ -122,11 +190,16 @@ void ArlequinCoupling::follow_transfer()
       transfer_.force[k] += share * (p.transfer_force[i] - transfer_.force[k]);
       transfer_.torque[k] += share * (p.transfer_torque[i] - transfer_.torque[k]);
     }
+  give_transfer_to_nodes();
+  if (has_started_ != 0)
+    transfer_work_ += 0.5 * drifted_ * work_of(transfer_); // the first half is that of follow()
+  drifted_ = 0.;
+}
+
+void ArlequinCoupling::give_transfer_to_nodes()
+{
   transfer_.on_nodes.assign(body_.solid().displacement().size(), 0.);
   weight_transfer_.add_opposite(transfer_.force, transfer_.torque, transfer_.on_nodes);
-  if (has_started_ != 0)
-    transfer_work_ += 0.5 * drifted_ * (work_before + work_of(transfer_));
-  drifted_ = 0.;
 }
 
 /// Dead loads of the held grains, of what acts on them at this step; see HeldEdge.

@@ -21,6 +21,14 @@ struct CouplingParameters
   double least_weight = default_min_weight; ///< bound of the grains' weights from below, see weight.h
   EdgeParameters edge;
   double transfer_time = 1e-4; ///< in which the transfer follows the contacts [s], > 0
+
+  /// Motion of a grain relative to the continuum after which the overlap is made anew, of the present places, in mean
+  /// diameters of its grains; 0: never.
+  double renewal = 0.;
+
+  /// Throws ConfigError for a value out of its range; the penalty and the least weight are looked at where they are
+  /// used.
+  void validate() const;
 };
 
 /// Where an overlap lies.
@@ -37,6 +45,10 @@ struct OverlapPlace
 /// grain lies in two. The places at the first step are those without a difference, whatever the body's displacement is
 /// by then. Held grains start in equilibrium, if the others do: at the first step they get the dead loads that keep
 /// them where they are.
+///
+/// Grains may move through the overlap: from time to time it is made anew of the present places, with the grains that
+/// are in the elements by then and their weights there. The coupling's forces and energy do not jump (PenaltyCoupling::
+/// renew()), held grains stay tied to where they were held, and what a change of weight puts in is booked.
 class ArlequinCoupling final : public Coupling
 {
 public:
@@ -49,7 +61,7 @@ public:
   void begin() { has_started_ = 0; }
 
   void apply() override;
-  void follow(const double time_step) override { drifted_ = time_step; }
+  void follow(double time_step) override;
   std::vector<const Mover *> movers() const override { return {&grains_, &body_}; }
   double stable_step() override;
   double energy() const override { return state_.energy; }
@@ -62,6 +74,13 @@ public:
   /// Work on both models of what the gradient of the weights transfers, since the start until the last apply() [J].
   double transfer_work() const { return transfer_work_; }
 
+  /// Makes the overlap anew, as follow() does when it is due; between follow() and apply().
+  void renew();
+
+  /// Where the grains are in the body's reference configuration, by id, as the present overlap has them [m]: a
+  /// restarted run is joined with these.
+  const std::vector<Vec3> &reference_by_id() const { return reference_by_id_; }
+
   /// Forces of the last apply() on the coupled particles, in the order of the overlap [N].
   std::span<const Eigen::Vector3d> particle_forces() const { return particle_force_; }
 
@@ -70,7 +89,7 @@ public:
   static void visit_state(Self &self, Visit &visit)
   {
     visit("resting_place", self.resting_place_);
-    visit("dead_load", self.penalty_.edge().dead_load);
+    visit("penalty", self.penalty_);
     visit("has_started", self.has_started_);
     visit("drifted", self.drifted_);
     visit("transfer_force", self.transfer_.force);
@@ -88,7 +107,11 @@ private:
   };
 
   void start();
+  void list_uncoupled();
+  bool must_be_renewed() const;
+  void compute_penalty(std::span<double> fe_force);
   void follow_transfer();
+  void give_transfer_to_nodes();
   void balance_edge();
   double work_of(const Transfer &transfer) const;
 
@@ -96,13 +119,17 @@ private:
   SolidMover &body_;
   PenaltyCoupling penalty_;
   WeightTransfer weight_transfer_;
-  double transfer_time_; // [s]
+  CouplingParameters parameters_;
+  std::vector<double> nodal_weight_;
+  std::vector<Vec3> reference_by_id_;   // [m]
+  std::vector<std::int64_t> uncoupled_; // grains that may come into the elements
   PenaltyState state_;
   std::vector<Vec3>
       resting_place_; // of the coupled particles, without a difference if the body had no displacement [m]
   std::vector<Eigen::Vector3d> particle_displacement_, particle_force_;
   Transfer transfer_;
-  double transfer_work_ = 0., drifted_ = 0.; // [J], [s]
+  double transfer_work_ = 0.; // [J]
+  double drifted_ = 0.;       // since the last apply() [s]
   std::int64_t has_started_ = 0;
 };
 

@@ -2,18 +2,21 @@
 
 #include "dem/core/error.h"
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q1.h>
+#include <deal.II/numerics/rtree.h>
 
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace bergamo::coupling
 {
@@ -22,46 +25,61 @@ namespace
 
 using Cell = dealii::Triangulation<3>::cell_iterator;
 
-/// Boxes around the cells' corners, to try only cells that a point may lie in.
-struct CellBox
+/// Looks for the elements of a body's reference configuration that points lie in.
+class ElementSearch
 {
-  Cell cell;
-  unsigned int element;
-  Vec3 low, high;
+public:
+  struct Found
+  {
+    Cell cell;
+    unsigned int element;
+    dealii::Point<3> unit; // local coordinates in [0, 1]^3
+  };
 
-  bool may_hold(const Vec3 &x) const { return (x.array() >= low.array()).all() && (x.array() <= high.array()).all(); }
+  explicit ElementSearch(const fe::ExplicitBody &body)
+  {
+    std::vector<std::pair<dealii::BoundingBox<3>, unsigned int>> boxes;
+    for (const auto &cell : body.dof_handler().active_cell_iterators())
+    {
+      boxes.emplace_back(cell->bounding_box(), static_cast<unsigned int>(cells_.size()));
+      cells_.push_back(cell);
+    }
+    tree_ = dealii::pack_rtree(boxes);
+  }
+
+  /// That of least number; none outside of the body.
+  std::optional<Found> find(const Vec3 &place) const
+  {
+    const dealii::Point<3> x(place[0], place[1], place[2]);
+    std::vector<std::pair<dealii::BoundingBox<3>, unsigned int>> near;
+    tree_.query(boost::geometry::index::intersects(x), std::back_inserter(near));
+    std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
+    for (const auto &[box, element] : near)
+    {
+      Found found{cells_[element], element, {}};
+      if (find_in_cell(found.cell, x, found.unit))
+        return found;
+    }
+    return {};
+  }
+
+private:
+  static bool find_in_cell(const Cell &cell, const dealii::Point<3> &x, dealii::Point<3> &unit)
+  {
+    try
+    {
+      unit = dealii::StaticMappingQ1<3>::mapping.transform_real_to_unit_cell(cell, x);
+    }
+    catch (const dealii::Mapping<3>::ExcTransformationFailed &)
+    {
+      return false;
+    }
+    return dealii::GeometryInfo<3>::is_inside_unit_cell(unit);
+  }
+
+  std::vector<Cell> cells_;
+  dealii::RTree<std::pair<dealii::BoundingBox<3>, unsigned int>> tree_;
 };
-
-std::vector<CellBox> cell_boxes(const fe::ExplicitBody &body)
-{
-  std::vector<CellBox> boxes;
-  for (const auto &cell : body.dof_handler().active_cell_iterators())
-  {
-    CellBox box{cell, static_cast<unsigned int>(boxes.size()), Vec3::Constant(1e300), Vec3::Constant(-1e300)};
-    for (const unsigned int v : cell->vertex_indices())
-      for (int d = 0; d < 3; ++d)
-      {
-        box.low[d] = std::min(box.low[d], cell->vertex(v)[d]);
-        box.high[d] = std::max(box.high[d], cell->vertex(v)[d]);
-      }
-    boxes.push_back(box);
-  }
-  return boxes;
-}
-
-/// Local coordinates in [0, 1]^3 of a point in a cell; false if it lies outside.
-bool find_in_cell(const Cell &cell, const Vec3 &x, dealii::Point<3> &unit)
-{
-  try
-  {
-    unit = dealii::StaticMappingQ1<3>::mapping.transform_real_to_unit_cell(cell, dealii::Point<3>(x[0], x[1], x[2]));
-  }
-  catch (const dealii::Mapping<3>::ExcTransformationFailed &)
-  {
-    return false;
-  }
-  return dealii::GeometryInfo<3>::is_inside_unit_cell(unit);
-}
 
 /// Gradients of the shape functions in space [1/m].
 std::array<Vec3, 8> gradients_at(const dealii::FE_Q<3> &trilinear, const Cell &cell, const dealii::Point<3> &unit)
@@ -92,7 +110,6 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
                       " nodes; choose elements of degree 1, with 8 nodes");
   Overlap overlap;
   std::map<unsigned int, int> local_node; // node of the mesh -> place in overlap.nodes
-  std::map<unsigned int, Cell> coupled_cells;
   const auto place_of = [&](const unsigned int node)
   {
     const auto [place, is_new] = local_node.emplace(node, static_cast<int>(overlap.nodes.size()));
@@ -105,49 +122,54 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
     return place->second;
   };
 
-  const std::vector<CellBox> boxes = cell_boxes(body);
+  const ElementSearch search(body);
   const dealii::FE_Q<3> trilinear(1);
   for (std::size_t i = 0; i < position.size(); ++i)
-    for (const CellBox &box : boxes)
+  {
+    const auto found = search.find(position[i]);
+    if (!found)
+      continue;
+    const auto nodes = body.element_nodes(found->element);
+    const std::array<Vec3, 8> gradients = gradients_at(trilinear, found->cell, found->unit);
+    for (unsigned int v = 0; v < 8; ++v)
     {
-      dealii::Point<3> unit;
-      if (!box.may_hold(position[i]) || !find_in_cell(box.cell, position[i], unit))
-        continue;
-      const auto nodes = body.element_nodes(box.element);
-      const std::array<Vec3, 8> gradients = gradients_at(trilinear, box.cell, unit);
-      for (unsigned int v = 0; v < 8; ++v)
-      {
-        overlap.shape_gradient.push_back(gradients[v]);
-        overlap.shape_node.push_back(place_of(nodes[v]));
-        overlap.shape_value.push_back(std::clamp(trilinear.shape_value(v, unit), 0., 1.));
-      }
-      overlap.shape_offset.push_back(overlap.shape_node.size());
-      overlap.particle_id.push_back(id[i]);
-      overlap.particle_volume.push_back(volume[i]);
-      overlap.reference_position.push_back(position[i]);
-      coupled_cells.emplace(box.element, box.cell);
-      break;
+      overlap.shape_gradient.push_back(gradients[v]);
+      overlap.shape_node.push_back(place_of(nodes[v]));
+      overlap.shape_value.push_back(std::clamp(trilinear.shape_value(v, found->unit), 0., 1.));
     }
+    overlap.shape_offset.push_back(overlap.shape_node.size());
+    overlap.particle_id.push_back(id[i]);
+    overlap.particle_volume.push_back(volume[i]);
+    overlap.reference_position.push_back(position[i]);
+  }
   if (overlap.nodes.empty())
     throw ConfigError("grains and continuum do not overlap: no grain's centre lies in an element; let the "
                       "elements reach into the grains by at least one layer");
 
-  std::vector<Eigen::Triplet<double>> entries;
-  dealii::FEValues<3> values(trilinear, dealii::QGauss<3>(2), dealii::update_values | dealii::update_JxW_values);
-  for (const auto &[element, cell] : coupled_cells)
-  {
-    values.reinit(cell);
-    const auto nodes = body.element_nodes(element);
-    for (const unsigned int q : values.quadrature_point_indices())
-      for (unsigned int a = 0; a < 8; ++a)
-        for (unsigned int b = 0; b < 8; ++b)
-          entries.emplace_back(local_node.at(nodes[a]), local_node.at(nodes[b]),
-                               values.shape_value(a, q) * values.shape_value(b, q) * values.JxW(q));
-  }
-  overlap.volume_matrix.resize(overlap.nodes.size(), overlap.nodes.size());
-  overlap.volume_matrix.setFromTriplets(entries.begin(), entries.end());
   overlap.validate();
   return overlap;
+}
+
+std::vector<Vec3> reference_places(const fe::ExplicitBody &body, const std::span<const Vec3> position)
+{
+  constexpr int n_iterations = 3; // each gains a factor of the displacement's gradient
+  const ElementSearch search(body);
+  const dealii::FE_Q<3> trilinear(1);
+  const std::span<const double> u = body.displacement();
+  std::vector<Vec3> places(position.begin(), position.end());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (int k = 0; k < n_iterations; ++k)
+    {
+      const auto found = search.find(places[i]);
+      if (!found)
+        break;
+      const auto nodes = body.element_nodes(found->element);
+      Vec3 displacement = Vec3::Zero();
+      for (unsigned int v = 0; v < 8; ++v)
+        displacement += trilinear.shape_value(v, found->unit) * Eigen::Map<const Vec3>(&u[3 * nodes[v]]);
+      places[i] = position[i] - displacement;
+    }
+  return places;
 }
 
 } // namespace bergamo::coupling

@@ -5,16 +5,21 @@
 #include "fe_dealii/explicit_body.h"
 
 #include <span>
+#include <vector>
 
 namespace bergamo::coupling
 {
 
 /// Where grains and elements share the space: the coupled particles are those whose centre lies in an element of the
 /// body's reference configuration, the coupled elements those that hold a centre (Wellmann 6.3). Shape values from
-/// deal.II's inverse mapping, V_IJ by Gauss quadrature.
+/// deal.II's inverse mapping.
 /// @param id, position [m], volume [m^3] of the grains in their reference configuration
-/// @throws ConfigError (Overlap::validate) where a node is reached by no grain or nothing overlaps
+/// @throws ConfigError (Overlap::validate) where nothing overlaps
 Overlap make_overlap(const fe::ExplicitBody &body, std::span<const std::int64_t> id, std::span<const Vec3> position,
                      std::span<const double> volume);
+
+/// Where places of the present configuration lie in the body's reference configuration, X + u(X) = x, up to the square
+/// of its displacement's gradient times the displacement; places in no element stay where they are [m].
+std::vector<Vec3> reference_places(const fe::ExplicitBody &body, std::span<const Vec3> position);
 
 } // namespace bergamo::coupling

@@ -3,7 +3,9 @@
 #include "dem/core/error.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
+#include <vector>
 
 namespace bergamo::coupling
 {
@@ -68,15 +70,27 @@ void GrainsMover::set_weights(const std::span<const std::int64_t> id, const std:
     if (shared_.contains(grain))
       reject("grain ", grain, " lies in two overlaps; let overlaps have no grain in common");
   shared_.insert(id.begin(), id.end());
-  bool has_changed = false; // a restarted run has its weights already, and must not search its contacts anew
-  for (std::size_t k = 0; k < id.size(); ++k)
-  {
-    double &w = grains_->particles.weight[grains_->index_of(id[k])];
-    has_changed = has_changed || w != weight[k];
-    w = weight[k];
-  }
-  if (has_changed)
-    grains_->refresh_contacts();
+  weigh(id, weight);
+}
+
+void GrainsMover::change_weights(const std::span<const std::int64_t> old_id, const std::span<const std::int64_t> id,
+                                 const std::span<const double> weight)
+{
+  for (const std::int64_t grain : old_id)
+    shared_.erase(grain);
+  set_weights(id, weight);
+  std::vector<std::int64_t> free;
+  std::copy_if(old_id.begin(), old_id.end(), std::back_inserter(free),
+               [&](const std::int64_t grain) { return !shared_.contains(grain); });
+  weigh(free, std::vector<double>(free.size(), 1.));
+}
+
+void GrainsMover::weigh(const std::span<const std::int64_t> id, const std::span<const double> weight)
+{
+  std::vector<std::int32_t> places;
+  for (const std::int64_t grain : id)
+    places.push_back(grains_->index_of(grain));
+  grains_->change_weights(places, weight);
 }
 
 } // namespace bergamo::coupling

@@ -31,10 +31,17 @@ public:
   /// forces. A grain gets its weight once: ConfigError for a second overlap.
   void set_weights(std::span<const std::int64_t> id, std::span<const double> weight);
 
+  /// Goes on with other weights and other grains, see dem::Simulation::change_weights(). @param old_id the grains that
+  /// had weights from the same overlap, which have 1 where they are not among the others
+  void change_weights(std::span<const std::int64_t> old_id, std::span<const std::int64_t> id,
+                      std::span<const double> weight);
+
   /// Leaves the work of a surface out of energy(): it belongs to another mover of the model.
   void share_surface(std::int32_t surface) { shared_surfaces_.insert(surface); }
 
 private:
+  void weigh(std::span<const std::int64_t> id, std::span<const double> weight);
+
   std::unique_ptr<dem::Simulation> grains_;
   std::unordered_set<std::int64_t> shared_; // ids of the grains with weights
   std::set<std::int32_t> shared_surfaces_;

@@ -18,6 +18,7 @@ ModelEnergy energy_of(const TwoScaleModel &model)
     e.curvature_work = g.curvature_work;
     e.search_work = g.search_work;
     e.quadrature_work = g.quadrature_work;
+    e.weight_work = g.exchanged;
   }
   if (const fe::ExplicitBody *body = model.body())
   {

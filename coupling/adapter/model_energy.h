@@ -14,11 +14,13 @@ struct ModelEnergy
   double gravity_work = 0.;
   double transfer_work = 0.; ///< of what the gradient of the weights transfers, on both models
   double curvature_work = 0., search_work = 0., quadrature_work = 0.; ///< of the grains' contacts, see dem::GrainEnergy
+  double weight_work = 0.; ///< brought by grains whose weight changed, see dem::Simulation::change_weights()
 
   double balance() const
   {
     return kinetic + grains_elastic + continuum_elastic + coupling + friction_loss + viscous_loss + plastic_loss +
-           stiffness_loss - wall_work - gravity_work - transfer_work - curvature_work - search_work - quadrature_work;
+           stiffness_loss - wall_work - gravity_work - transfer_work - curvature_work - search_work - quadrature_work -
+           weight_work;
   }
 };
 

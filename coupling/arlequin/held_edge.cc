@@ -3,25 +3,10 @@
 #include "dem/core/error.h"
 
 #include <cmath>
-#include <numbers>
-#include <numeric>
+#include <unordered_map>
 
 namespace bergamo::coupling
 {
-namespace
-{
-
-/// Mean diameter of spheres of the particles' volumes [m].
-double mean_diameter(const Overlap &overlap)
-{
-  double sum = 0.;
-  for (const double volume : overlap.particle_volume)
-    sum += std::cbrt(6. * volume / std::numbers::pi);
-  return sum / static_cast<double>(overlap.n_particles());
-}
-
-} // namespace
-
 void EdgeParameters::validate() const
 {
   if (!(depth >= 0.) || !std::isfinite(depth))
@@ -38,7 +23,7 @@ HeldEdge::HeldEdge(const Overlap &overlap, const std::span<const double> node_we
   parameters.validate();
   if (parameters.depth == 0.)
     return;
-  const double depth = parameters.depth * mean_diameter(overlap);
+  const double depth = parameters.depth * overlap.mean_diameter();
   for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
   {
     double weight = 0.;
@@ -50,35 +35,98 @@ HeldEdge::HeldEdge(const Overlap &overlap, const std::span<const double> node_we
     }
     if (!(weight < depth * gradient.norm()))
       continue;
-    particle_.push_back(static_cast<int>(particle));
+    if (overlap.shape_offset[particle + 1] - overlap.shape_offset[particle] != n_nodes)
+      reject("a held edge needs elements of 8 nodes");
+    for (std::size_t k = overlap.shape_offset[particle]; k < overlap.shape_offset[particle + 1]; ++k)
+    {
+      node_.push_back(overlap.nodes[overlap.shape_node[k]]);
+      value_.push_back(overlap.shape_value[k]);
+    }
+    id_.push_back(overlap.particle_id[particle]);
+    particle_.push_back(static_cast<std::int32_t>(particle));
     stiffness_.push_back(parameters.stiffness * particle_weight[particle] * overlap.particle_volume[particle]);
   }
   dead_load.assign(size(), Eigen::Vector3d::Zero());
+  shift_.assign(size(), Eigen::Vector3d::Zero());
 }
 
-double HeldEdge::add_springs(const std::span<const Eigen::Vector3d> difference,
-                             const std::span<Eigen::Vector3d> force) const
+double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_displacement,
+                            const std::span<const double> fe_displacement,
+                            const std::span<Eigen::Vector3d> particle_force, const std::span<double> fe_force,
+                            const Loads loads)
 {
-  double energy = 0.;
+  energy_.assign(size(), 0.);
+  double sum = 0.;
   for (std::size_t k = 0; k < size(); ++k)
   {
-    const Eigen::Vector3d &d = difference[particle_[k]];
-    force[particle_[k]] -= stiffness_[k] * d;
-    energy += 0.5 * stiffness_[k] * d.squaredNorm();
+    Eigen::Vector3d difference = particle_displacement[particle_[k]];
+    if (loads == Loads::all)
+      difference += shift_[k];
+    for (std::size_t n = n_nodes * k; n < n_nodes * (k + 1); ++n)
+      difference -= value_[n] * Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * node_[n]]);
+    Eigen::Vector3d force = -stiffness_[k] * difference;
+    energy_[k] = 0.5 * stiffness_[k] * difference.squaredNorm();
+    if (loads == Loads::all)
+    {
+      force += dead_load[k];
+      energy_[k] -= dead_load[k].dot(difference);
+    }
+    particle_force[particle_[k]] += force;
+    for (std::size_t n = n_nodes * k; n < n_nodes * (k + 1); ++n)
+      Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * node_[n]) -= value_[n] * force;
+    sum += energy_[k];
   }
-  return energy;
+  return sum;
 }
 
-double HeldEdge::add_dead_loads(const std::span<const Eigen::Vector3d> difference,
-                                const std::span<Eigen::Vector3d> force) const
+double HeldEdge::renew(const Overlap &overlap, const std::span<const Eigen::Vector3d> moved)
 {
-  double energy = 0.;
+  std::unordered_map<std::int64_t, std::int32_t> place;
+  for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
+    place.emplace(overlap.particle_id[particle], static_cast<std::int32_t>(particle));
+  double let_go = 0.;
+  std::vector<bool> is_gone(size(), false);
   for (std::size_t k = 0; k < size(); ++k)
+    if (const auto found = place.find(id_[k]); found != place.end())
+    {
+      particle_[k] = found->second;
+      shift_[k] += moved[found->second];
+    }
+    else
+    {
+      is_gone[k] = true;
+      let_go += energy_[k];
+    }
+  remove(is_gone);
+  return let_go;
+}
+
+void HeldEdge::remove(const std::vector<bool> &is_gone)
+{
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < is_gone.size(); ++k)
   {
-    force[particle_[k]] += dead_load[k];
-    energy -= dead_load[k].dot(difference[particle_[k]]);
+    if (is_gone[k])
+      continue;
+    id_[kept] = id_[k];
+    particle_[kept] = particle_[k];
+    stiffness_[kept] = stiffness_[k];
+    shift_[kept] = shift_[k];
+    dead_load[kept] = dead_load[k];
+    for (std::size_t n = 0; n < n_nodes; ++n)
+    {
+      node_[n_nodes * kept + n] = node_[n_nodes * k + n];
+      value_[n_nodes * kept + n] = value_[n_nodes * k + n];
+    }
+    ++kept;
   }
-  return energy;
+  id_.resize(kept);
+  particle_.resize(kept);
+  stiffness_.resize(kept);
+  shift_.resize(kept);
+  dead_load.resize(kept);
+  node_.resize(n_nodes * kept);
+  value_.resize(n_nodes * kept);
 }
 
 } // namespace bergamo::coupling

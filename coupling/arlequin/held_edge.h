@@ -26,7 +26,8 @@ struct EdgeParameters
 /// of the stiffness, and a dead load instead of the contacts that are gone, with the opposite on the continuum at the
 /// same point.
 ///
-/// The edge are the grains nearer than the depth to where the weights of the nodes vanish, w < depth |grad w|.
+/// The edge are the grains nearer than the depth to where the weights of the nodes vanish, w < depth |grad w|. It stays
+/// tied to the points of the continuum where it was made, whatever becomes of the overlap.
 class HeldEdge
 {
 public:
@@ -37,20 +38,50 @@ public:
            const EdgeParameters &parameters);
 
   std::size_t size() const { return particle_.size(); }
-  std::span<const int> particles() const { return particle_; } ///< places in the Overlap, ascending
+  std::span<const std::int32_t> particles() const { return particle_; } ///< places in the Overlap
 
   /// The dead load of a held particle [N], in the order of particles(); zero at first.
   std::vector<Eigen::Vector3d> dead_load;
 
-  /// Add the forces on the held particles to `force`. @param difference u_alpha - N^T u of all coupled particles [m]
-  /// @return their energy [J] @{
-  double add_springs(std::span<const Eigen::Vector3d> difference, std::span<Eigen::Vector3d> force) const;
-  double add_dead_loads(std::span<const Eigen::Vector3d> difference, std::span<Eigen::Vector3d> force) const;
-  /// @}
+  enum class Loads
+  {
+    all,
+    springs
+  };
+
+  /// Adds its forces on both models, as PenaltyCoupling::compute() has them [N]. @return their energy [J]
+  double add_forces(std::span<const Eigen::Vector3d> particle_displacement, std::span<const double> fe_displacement,
+                    std::span<Eigen::Vector3d> particle_force, std::span<double> fe_force, Loads loads);
+
+  /// Follows its particles into another overlap, see PenaltyCoupling::renew(); those that are in it no more are let go.
+  /// @return the energy that these had at the last add_forces() [J]
+  double renew(const Overlap &overlap, std::span<const Eigen::Vector3d> moved);
+
+  /// All of it, by name; see dem/core/state.h.
+  template <class Self, class Visit>
+  static void visit_state(Self &self, Visit &visit)
+  {
+    visit("id", self.id_);
+    visit("particle", self.particle_);
+    visit("stiffness", self.stiffness_);
+    visit("node", self.node_);
+    visit("value", self.value_);
+    visit("shift", self.shift_);
+    visit("dead_load", self.dead_load);
+  }
 
 private:
-  std::vector<int> particle_;
-  std::vector<double> stiffness_; // [N/m]
+  static constexpr std::size_t n_nodes = 8; // of an element
+
+  void remove(const std::vector<bool> &is_gone);
+
+  std::vector<std::int64_t> id_;
+  std::vector<std::int32_t> particle_;
+  std::vector<double> stiffness_;      // [N/m]
+  std::vector<std::int32_t> node_;     // of the mesh, 8 a particle
+  std::vector<double> value_;          // of their shape functions at its place
+  std::vector<Eigen::Vector3d> shift_; // of the places from which displacements count since the edge was made [m]
+  std::vector<double> energy_;         // at the last add_forces() [J]
 };
 
 } // namespace bergamo::coupling

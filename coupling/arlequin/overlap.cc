@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <unordered_set>
 
@@ -15,7 +16,6 @@ namespace
 
 constexpr double shape_tolerance = 1e-8;    ///< of values that should be 0, 1 or sum to 1
 constexpr double position_tolerance = 1e-6; ///< of a particle's position, over the extent of its nodes
-constexpr double least_reach = 1e-6;        ///< shape value from which a particle counts as reaching a node
 
 template <class... Parts>
 [[noreturn]] void fail(const Parts &...parts)
@@ -49,10 +49,6 @@ void check_sizes(const Overlap &overlap)
   const auto is_node = [n_nodes](const int node) { return node >= 0 && static_cast<std::size_t>(node) < n_nodes; };
   if (!std::all_of(overlap.shape_node.begin(), overlap.shape_node.end(), is_node))
     fail("a shape function value names a node outside the ", n_nodes, " coupling nodes");
-  if (static_cast<std::size_t>(overlap.volume_matrix.rows()) != n_nodes ||
-      static_cast<std::size_t>(overlap.volume_matrix.cols()) != n_nodes)
-    fail("the volume matrix is ", overlap.volume_matrix.rows(), " x ", overlap.volume_matrix.cols(), " for ", n_nodes,
-         " nodes");
 }
 
 void check_particle(const Overlap &overlap, const std::size_t particle)
@@ -98,33 +94,17 @@ void check_nodes(const Overlap &overlap)
     if (overlap.nodes[node] < 0 || !seen.insert(overlap.nodes[node]).second)
       fail("the node at ", text(overlap.node_position[node]), " is number ", overlap.nodes[node],
            "; numbers must be 0 or more, each once");
-
-  std::vector<double> reach(n_nodes, 0.);
-  for (std::size_t k = 0; k < overlap.shape_node.size(); ++k)
-    reach[overlap.shape_node[k]] = std::max(reach[overlap.shape_node[k]], overlap.shape_value[k]);
-  for (std::size_t node = 0; node < n_nodes; ++node)
-    if (reach[node] < least_reach)
-      fail("no particle reaches the node at ", text(overlap.node_position[node]),
-           "; its elements must be filled with particles: take larger elements or smaller grains");
-}
-
-void check_volume_matrix(const Overlap &overlap)
-{
-  const auto &matrix = overlap.volume_matrix;
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> transposed = matrix.transpose();
-  const double largest = matrix.nonZeros() > 0 ? matrix.coeffs().abs().maxCoeff() : 0.;
-  if (!std::isfinite(largest))
-    fail("the volume matrix has an entry that is no number");
-  if ((matrix - transposed).norm() > 1e-12 * matrix.norm())
-    fail("the volume matrix is not symmetric");
-  const Eigen::VectorXd row_sums = matrix * Eigen::VectorXd::Ones(matrix.cols());
-  for (Eigen::Index node = 0; node < row_sums.size(); ++node)
-    if (!(row_sums[node] > 0.))
-      fail("the node at ", text(overlap.node_position[node]), " has the volume ", row_sums[node],
-           " m^3; integrate over all elements of the overlap");
 }
 
 } // namespace
+
+double Overlap::mean_diameter() const
+{
+  double sum = 0.;
+  for (const double volume : particle_volume)
+    sum += std::cbrt(6. * volume / std::numbers::pi);
+  return sum / static_cast<double>(n_particles());
+}
 
 void Overlap::validate() const
 {
@@ -132,7 +112,6 @@ void Overlap::validate() const
   for (std::size_t particle = 0; particle < n_particles(); ++particle)
     check_particle(*this, particle);
   check_nodes(*this);
-  check_volume_matrix(*this);
 }
 
 } // namespace bergamo::coupling

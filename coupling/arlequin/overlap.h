@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +9,8 @@ namespace bergamo::coupling
 
 /// The region where grains and elements share the space, in the reference configuration (Wellmann, 6.1 and 6.3).
 /// A coupling node is a node of an element of the overlap; within this room nodes are known by their place in
-/// `nodes`. A coupled particle is one whose centre lies in an element of the overlap.
+/// `nodes`. A coupled particle is one whose centre lies in an element of the overlap, an element of the overlap one
+/// that holds a centre.
 struct Overlap
 {
   std::vector<int> nodes;                     ///< number of each coupling node in the FE mesh, each once
@@ -27,16 +27,13 @@ struct Overlap
   std::vector<double> shape_value;
   std::vector<Eigen::Vector3d> shape_gradient; ///< of N_I at the centre [1/m]
 
-  /// V_IJ = integral of N_I N_J over the elements of the overlap [m^3], symmetric.
-  Eigen::SparseMatrix<double, Eigen::RowMajor> volume_matrix;
-
   std::size_t n_nodes() const { return nodes.size(); }
   std::size_t n_particles() const { return particle_id.size(); }
+  double mean_diameter() const; ///< of spheres of the particles' volumes [m]
 
   /// Throws ConfigError, naming the particle or the position of the node and the remedy, unless sizes fit,
   /// every particle's shape values lie in [0, 1] (linear elements), sum to 1 and give back its position, their
-  /// gradients give back the gradient of the position, every node is reached by a particle, and the volume matrix is
-  /// symmetric with positive row sums.
+  /// gradients give back the gradient of the position, and nodes are named once. Elements may be filled only in part.
   void validate() const;
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <unordered_map>
 
 namespace bergamo::coupling
 {
@@ -34,15 +35,39 @@ double scattered(std::uint64_t i)
 } // namespace
 
 PenaltyCoupling::PenaltyCoupling(Overlap overlap, const Projection kind, const double penalty)
-    : overlap_(std::move(overlap)), projection_(overlap_, kind), penalty_(penalty),
-      largest_node_(*std::max_element(overlap_.nodes.begin(), overlap_.nodes.end())),
-      particle_difference_(overlap_.n_particles()), particle_work_(overlap_.n_particles()),
-      node_work_(overlap_.n_nodes()), difference_(overlap_.n_nodes(), Eigen::Vector3d::Zero())
+    : kind_(kind), penalty_(penalty)
 {
+  take(std::move(overlap));
   if (!(penalty > 0.) || !std::isfinite(penalty))
     fail("the penalty is ", penalty, " Pa/m^2; it must be positive, e.g. ten times the continuum's modulus over the ",
          "product of grain size and element size");
-  overlap_.volume_matrix.makeCompressed();
+}
+
+void PenaltyCoupling::take(Overlap overlap)
+{
+  projection_ = std::make_unique<const CoarseProjection>(overlap, kind_); // looks whether it is a good one
+  overlap_ = std::move(overlap);
+  largest_node_ = *std::max_element(overlap_.nodes.begin(), overlap_.nodes.end());
+  particle_difference_.resize(overlap_.n_particles());
+  particle_work_.resize(overlap_.n_particles());
+  node_work_.resize(overlap_.n_nodes());
+  difference_.assign(overlap_.n_nodes(), Eigen::Vector3d::Zero());
+  kept_.assign(overlap_.n_nodes(), Eigen::Vector3d::Zero());
+}
+
+void PenaltyCoupling::renew(Overlap overlap, const std::span<const Eigen::Vector3d> moved)
+{
+  std::unordered_map<int, Eigen::Vector3d> density; // by node of the mesh
+  for (std::size_t i = 0; i < overlap_.n_nodes(); ++i)
+    density.emplace(overlap_.nodes[i], kept_[i] + penalty_ * difference_[i]);
+  ++n_renewals_;
+  put_in_ += difference_energy_;
+  difference_energy_ = 0.;
+  put_in_ += edge_.renew(overlap, moved);
+  take(std::move(overlap));
+  for (std::size_t i = 0; i < overlap_.n_nodes(); ++i)
+    if (const auto found = density.find(overlap_.nodes[i]); found != density.end())
+      kept_[i] = found->second;
 }
 
 PenaltyState PenaltyCoupling::compute(const std::span<const Eigen::Vector3d> particle_displacement,
@@ -68,42 +93,53 @@ PenaltyState PenaltyCoupling::add_forces(const std::span<const Eigen::Vector3d> 
   const std::size_t n_particles = overlap_.n_particles(), n_nodes = overlap_.n_nodes();
 
   // Difference of the models at the particles, then its coarse part.
-  for (std::size_t i = 0; i < n_nodes; ++i)
-    node_work_[i] = Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * overlap_.nodes[i]]);
-  projection_.interpolate(node_work_, particle_difference_);
-  for (std::size_t particle = 0; particle < n_particles; ++particle)
-    particle_difference_[particle] = particle_displacement[particle] - particle_difference_[particle];
-  projection_.project(particle_difference_, difference_);
-
-  // Nodal forces f = epsilon V r.
-  const auto &matrix = overlap_.volume_matrix;
-  const int *row_start = matrix.outerIndexPtr(), *column = matrix.innerIndexPtr();
-  const double *value = matrix.valuePtr();
-  parallel_for(n_nodes,
-               [&](const std::size_t i)
-               {
-                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-                 for (int k = row_start[i]; k < row_start[i + 1]; ++k)
-                   sum += value[k] * difference_[column[k]];
-                 node_work_[i] = penalty_ * sum;
-               });
   PenaltyState state;
   for (std::size_t i = 0; i < n_nodes; ++i)
+    node_work_[i] = Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * overlap_.nodes[i]]);
+  projection_->interpolate(node_work_, particle_difference_);
+  for (std::size_t particle = 0; particle < n_particles; ++particle)
   {
-    state.energy += 0.5 * difference_[i].dot(node_work_[i]);
-    state.largest_difference = std::max(state.largest_difference, difference_[i].norm());
+    particle_difference_[particle] = particle_displacement[particle] - particle_difference_[particle];
+    state.largest_motion = std::max(state.largest_motion, particle_difference_[particle].norm());
   }
+  projection_->project(particle_difference_, difference_);
 
   // Equal and opposite forces on both models at the particles.
-  projection_.transpose_project(node_work_, particle_work_);
+  const auto load = [&](const auto &density)
+  {
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      node_work_[i] = density(i);
+    projection_->interpolate(node_work_, particle_work_);
+  };
+  const auto energy_of_loads = [&]
+  {
+    double energy = 0.;
+    for (std::size_t particle = 0; particle < n_particles; ++particle)
+      energy += overlap_.particle_volume[particle] * particle_difference_[particle].dot(particle_work_[particle]);
+    return energy;
+  };
+  load([&](const std::size_t i) -> Eigen::Vector3d { return penalty_ * difference_[i]; });
+  double stored = 0.5 * energy_of_loads();
+  if (loads == Loads::all && n_renewals_ > 0)
+  {
+    load([&](const std::size_t i) -> Eigen::Vector3d { return kept_[i]; });
+    stored += energy_of_loads();
+    load([&](const std::size_t i) -> Eigen::Vector3d { return kept_[i] + penalty_ * difference_[i]; });
+  }
   for (std::size_t particle = 0; particle < n_particles; ++particle)
-    particle_force[particle] = -particle_work_[particle];
-  state.energy += edge_.add_springs(particle_difference_, particle_force);
-  if (loads == Loads::all)
-    state.energy += edge_.add_dead_loads(particle_difference_, particle_force);
-  projection_.collect(particle_force, node_work_);
+    particle_force[particle] = -overlap_.particle_volume[particle] * particle_work_[particle];
+  for (std::size_t i = 0; i < n_nodes; ++i)
+    state.largest_difference = std::max(state.largest_difference, difference_[i].norm());
+  projection_->collect(particle_force, node_work_);
   for (std::size_t i = 0; i < n_nodes; ++i)
     Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * overlap_.nodes[i]) -= node_work_[i];
+  state.energy = stored + edge_.add_forces(particle_displacement, fe_displacement, particle_force, fe_force,
+                                           loads == Loads::all ? HeldEdge::Loads::all : HeldEdge::Loads::springs);
+  if (loads == Loads::all)
+  {
+    difference_energy_ = stored;
+    state.energy += put_in_;
+  }
   return state;
 }
 

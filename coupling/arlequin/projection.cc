@@ -46,7 +46,7 @@ CoarseProjection::CoarseProjection(const Overlap &overlap, const Projection kind
   each_value([&](const int particle, const int node, const double n)
              { inverse_lumped_[node] += n * volume_[particle]; });
   for (double &value : inverse_lumped_)
-    value = 1. / value;
+    value = value > 0. ? 1. / value : 0.; // a node that no grain reaches has no difference
 
   if (kind == Projection::consistent)
     factorize(overlap);
@@ -114,14 +114,6 @@ void CoarseProjection::project(const ConstVectors particle_values, const Vectors
                  node_values[node] = sum;
                });
   apply_inverse(node_values);
-}
-
-void CoarseProjection::transpose_project(const ConstVectors node_values, const Vectors particle_values) const
-{
-  std::vector<Eigen::Vector3d> solved(node_values.begin(), node_values.end());
-  apply_inverse(solved);
-  interpolate(solved, particle_values);
-  parallel_for(n_particles(), [&](const std::size_t particle) { particle_values[particle] *= volume_[particle]; });
 }
 
 void CoarseProjection::interpolate(const ConstVectors node_values, const Vectors particle_values) const

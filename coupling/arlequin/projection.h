@@ -46,9 +46,6 @@ public:
   /// Pi: particle values to node values.
   void project(ConstVectors particle_values, Vectors node_values) const;
 
-  /// Pi^T: node values to particle values.
-  void transpose_project(ConstVectors node_values, Vectors particle_values) const;
-
   /// N^T: values of the finite element field at the particles.
   void interpolate(ConstVectors node_values, Vectors particle_values) const;
 

@@ -1,4 +1,5 @@
 #include "dem/core/error.h"
+#include "dem/motion/rotation.h"
 #include "dem/simulation/simulation.h"
 
 #include <string>
@@ -99,6 +100,30 @@ Exchange Simulation::remove(const std::vector<std::int32_t> &leaving)
   take_order(staying);
   renew_neighbours();
   return gone;
+}
+
+void Simulation::change_weights(const std::span<const std::int32_t> indices, const std::span<const double> weights)
+{
+  bool has_changed = false; // a restarted run has its weights already, and must not search its contacts anew
+  for (std::size_t k = 0; k < indices.size(); ++k)
+  {
+    const std::int32_t i = indices[k];
+    const double change = weights[k] - particles.weight[i];
+    if (change == 0.)
+      continue;
+    has_changed = true;
+    particles.weight[i] = weights[k];
+    if (particles.is_fixed(i))
+      continue;
+    const Vec3 spin = angular_velocity(particles.orientation[i].toRotationMatrix(), particles.inertia[i],
+                                       particles.angular_momentum[i]);
+    accounts.exchanged +=
+        0.5 * change *
+        (particles.mass[i] * particles.velocity[i].squaredNorm() + particles.angular_momentum[i].dot(spin));
+    accounts.start_potential -= change * particles.mass[i] * p.gravity.dot(particles.position[i]);
+  }
+  if (has_changed)
+    refresh_contacts();
 }
 
 Exchange Simulation::add(const Particles &added)

@@ -98,6 +98,12 @@ public:
     contacts.refresh(particles);
   }
 
+  /// Between steps: gives grains other weights, with the velocities that they have, and has contacts searched anew
+  /// where any differs. What that puts in as kinetic energy is booked as exchanged; contacts book theirs as curvature
+  /// work.
+  /// @param indices places in the arrays; @param weights in (0, 1]
+  void change_weights(std::span<const std::int32_t> indices, std::span<const double> weights);
+
   /// Stops all grains where they are.
   void rest();
 

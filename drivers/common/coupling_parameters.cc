@@ -5,7 +5,7 @@ namespace bergamo::driver
 
 void declare_coupling(ParameterFile &file, coupling::CouplingParameters &coupling)
 {
-  file.add("Coupling", "penalty", coupling.penalty, "epsilon [Pa/m2]", Range::positive());
+  file.add("Coupling", "penalty", coupling.penalty, "epsilon, per volume of grains [Pa/m2]", Range::positive());
   file.add("Coupling", "projection", coupling.projection, "of the grains' displacements",
            {{"lumped", coupling::Projection::lumped}, {"consistent", coupling::Projection::consistent}});
   file.add("Coupling", "edge depth", coupling.edge.depth,
@@ -16,6 +16,10 @@ void declare_coupling(ParameterFile &file, coupling::CouplingParameters &couplin
   file.add("Coupling", "transfer time", coupling.transfer_time,
            "in which the continuum takes over what the gradient of the weights takes from the grains [s]",
            Range::positive());
+  file.add("Coupling", "renewal", coupling.renewal,
+           "of the overlap with the grains that are there by then: after this motion of a grain relative to the "
+           "continuum, in mean diameters; 0 for never",
+           Range::non_negative());
   file.add("Coupling", "least weight", coupling.least_weight, "lower bound of the grains' weights in the overlap",
            {.lowest = 0, .highest = 1, .lowest_included = false});
 }

@@ -13,15 +13,11 @@ import argparse
 import concurrent.futures
 import csv
 import statistics
-import subprocess
-import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "common" / "plots"))
-import run_data
+from study_runs import STRESSES, errors, run, run_data
 
-STRESSES = ["stress_1_Pa", "stress_2_Pa", "stress_3_Pa"]
+FILES = ("two_scale_triaxial.prm", "nearly_elastic.prm")
 
 # By group: what is varied from the defaults and nearly_elastic.prm, which has an overlap of two layers, 4.7 grains.
 VARIANTS = {
@@ -40,18 +36,6 @@ VARIANTS = {
 }
 
 
-def run(program, folder, settings):
-    """Runs the driver unless the folder holds a finished run."""
-    if run_data.read_summary(folder):
-        return
-    options = [word for name, value in settings.items() for word in ("--set", f"{name}={value}")]
-    result = subprocess.run([program, HERE / "two_scale_triaxial.prm", HERE / "nearly_elastic.prm", "--output", folder,
-                             "--force", "--no-plots", "--quiet", "--threads", "1", *options],
-                            capture_output=True, text=True)
-    if result.returncode != 0:
-        print(f"{folder}: {result.stderr.strip().splitlines()[-1:]}", file=sys.stderr)
-
-
 def changes(history, names=STRESSES):
     return [history[name] - history[name][0] for name in names]
 
@@ -67,21 +51,13 @@ def elasticity(history):
     return 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
 
 
-def errors(history, reference):
-    """Of the three principal stresses [%]; none of a run that has ended early."""
-    largest = max(abs(change).max() for change in changes(reference))
-    n = len(reference["time_s"])
-    if len(history["time_s"]) < n:
-        return None
-    return [100 * abs(a - b).max() / largest for a, b in zip(changes(history), changes(reference))]
-
-
 def measure(program, folder, seeds, chosen):
     """A row a variant: group, name, errors of each seed, smallest stable step."""
     jobs = []
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         alone = {seed: folder / f"grains-{seed}" for seed in seeds}
-        list(pool.map(lambda seed: run(program, alone[seed], {"Model/kind": "grains", "Packing/seed": seed}), seeds))
+        list(pool.map(lambda seed: run(program, alone[seed], {"Model/kind": "grains", "Packing/seed": seed}, FILES),
+                      seeds))
         for seed in seeds:
             modulus, ratio = elasticity(run_data.read_history(alone[seed]))
             continuum = {"Continuum/Young's modulus": modulus, "Continuum/Poisson's ratio": ratio, "Packing/seed": seed}
@@ -90,11 +66,11 @@ def measure(program, folder, seeds, chosen):
                 if not chosen or group in chosen:
                     jobs += [(group, name, seed, {**continuum, **settings}) for name, settings in variants.items()]
         path = lambda job: folder / f"{job[1].replace(' ', '-')}-{job[2]}"
-        list(pool.map(lambda job: run(program, path(job), job[3]), jobs))
+        list(pool.map(lambda job: run(program, path(job), job[3], FILES), jobs))
     rows = {}
     for job in jobs:
         summary = run_data.read_summary(path(job))
-        found = errors(run_data.read_history(path(job)), run_data.read_history(alone[job[2]])) if summary else None
+        found = errors(run_data.read_history(path(job)), run_data.read_history(alone[job[2]]), True) if summary else None
         row = rows.setdefault(job[:2], {"errors": [], "step": float("inf"), "failed": 0})
         if found:
             row["errors"].append(found)

@@ -207,6 +207,8 @@ void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, Loa
 {
   visit("loading/box_low", start.box.low);
   visit("loading/box_high", start.box.high);
+  if (specimen && specimen->model.overlap() && !visit.is_reading())
+    start.reference_by_id = specimen->model.overlap()->reference_by_id();
   visit("loading/reference", start.reference_by_id);
   visit("loading/stress_by_layer", start.stress_by_layer);
   visit("loading/solid_fraction", start.solid_fraction);

@@ -32,7 +32,6 @@ inline Overlap block(const int n, const int particles_per_element, const unsigne
         overlap.node_position.push_back(origin + edges * Eigen::Vector3d(i, j, k));
       }
 
-  std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k)
@@ -40,14 +39,6 @@ inline Overlap block(const int n, const int particles_per_element, const unsigne
         std::array<int, 8> corner;
         for (int c = 0; c < 8; ++c)
           corner[c] = node(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
-        for (int a = 0; a < 8; ++a)
-          for (int b = 0; b < 8; ++b)
-          {
-            double value = element_volume;
-            for (int axis = 0; axis < 3; ++axis)
-              value *= (a >> axis & 1) == (b >> axis & 1) ? 1. / 3. : 1. / 6.;
-            entries.emplace_back(corner[a], corner[b], value);
-          }
         for (int p = 0; p < particles_per_element; ++p)
         {
           const Eigen::Vector3d place(uniform(random), uniform(random), uniform(random));
@@ -73,8 +64,6 @@ inline Overlap block(const int n, const int particles_per_element, const unsigne
           overlap.shape_offset.push_back(overlap.shape_node.size());
         }
       }
-  overlap.volume_matrix.resize(m * m * m, m * m * m);
-  overlap.volume_matrix.setFromTriplets(entries.begin(), entries.end());
   return overlap;
 }
 

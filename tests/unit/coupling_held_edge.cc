@@ -72,13 +72,19 @@ TEST_CASE("springs and dead loads of a held edge are the gradient of their energ
     d = vector();
   for (auto &load : edge.dead_load)
     load = 1e3 * vector();
+  std::vector<double> fe(test::n_dofs(overlap));
+  for (double &u : fe)
+    u = uniform(random);
+  std::vector<double> fe_force;
   const auto energy_and = [&](std::vector<Eigen::Vector3d> &force)
   {
     force.assign(overlap.n_particles(), Eigen::Vector3d::Zero());
-    return edge.add_springs(difference, force) + edge.add_dead_loads(difference, force);
+    fe_force.assign(fe.size(), 0.);
+    return edge.add_forces(difference, fe, force, fe_force, HeldEdge::Loads::all);
   };
   std::vector<Eigen::Vector3d> force, ignored;
   energy_and(force);
+  const std::vector<double> on_nodes = fe_force;
   std::size_t n_free = 0;
   for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
     n_free += force[particle] == Eigen::Vector3d::Zero();
@@ -96,10 +102,24 @@ TEST_CASE("springs and dead loads of a held edge are the gradient of their energ
       difference[particle][d] += h;
       CHECK(force[particle][d] == Approx((below - above) / (2. * h)).epsilon(1e-6).margin(1e-9));
     }
+  double largest_load = 0.;
+  for (std::size_t dof = 0; dof < fe.size(); ++dof)
+  {
+    constexpr double h = 1e-6;
+    fe[dof] += h;
+    const double above = energy_and(ignored);
+    fe[dof] -= 2. * h;
+    const double below = energy_and(ignored);
+    fe[dof] += h;
+    CHECK(on_nodes[dof] == Approx((below - above) / (2. * h)).epsilon(1e-6).margin(1e-9));
+    largest_load = std::max(largest_load, std::abs(on_nodes[dof]));
+  }
+  CHECK(largest_load > 1e-4);
   // A spring has the weight: w V k.
   const int first = edge.particles()[0];
   std::vector<Eigen::Vector3d> of_springs(overlap.n_particles(), Eigen::Vector3d::Zero());
-  edge.add_springs(difference, of_springs);
+  fe.assign(fe.size(), 0.);
+  edge.add_forces(difference, fe, of_springs, fe_force, HeldEdge::Loads::springs);
   CHECK(
       (of_springs[first] + 1e12 * weights.particle[first] * overlap.particle_volume[first] * difference[first]).norm() <
       1e-12 * of_springs[first].norm());

@@ -6,12 +6,11 @@
 #include "coupling/adapter/dealii_adapter.h"
 #include "coupling/adapter/model_energy.h"
 #include "coupling/adapter/stress_profile.h"
-#include "coupling/adapter/two_scale_model.h"
-#include "dem/loading/compression.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "dem/state/positions_by_id.h"
 #include "fe_dealii/mesh/box_mesh.h"
+#include "tests/verification/pressed_model.h"
 
 #include <deal.II/grid/tria.h>
 #include <omp.h>
@@ -20,6 +19,8 @@
 
 using namespace bergamo;
 using coupling::TwoScaleModel;
+using test::make_pressed_model;
+using test::run;
 
 namespace
 {
@@ -215,72 +216,6 @@ TEST_CASE("a coupled run has the same bits on any number of threads")
 namespace
 {
 
-constexpr double confining_pressure = 1e5; // [Pa]
-
-/// A dense packing between six walls under pressure, at rest.
-std::unique_ptr<dem::Simulation> make_pressed_packing()
-{
-  std::mt19937_64 generator(11);
-  const dem::Box loose{Vec3::Zero(), Vec3::Constant(1.5 * edge)};
-  const auto grains = dem::draw_grains(dem::GrainDistribution(), 0.6 * edge * edge * edge, generator);
-  dem::SimulationParameters parameters;
-  parameters.time_step = 1.5e-7;
-  parameters.between_grains().friction = 0.15;
-  parameters.contact.overlap_tolerance = 1e-3;
-  auto packing = std::make_unique<dem::Simulation>(
-      parameters, dem::add_at_random(grains, loose, parameters.grain().density, generator()), dem::box_walls(loose));
-  dem::CompressionParameters pressing;
-  pressing.pressure = confining_pressure;
-  pressing.pressure_tolerance = pressing.force_tolerance = 0.03;
-  dem::Compression compression(pressing);
-  while (!compression.is_finished())
-  {
-    compression.step(*packing);
-    packing->integrate();
-  }
-  for (dem::PlaneWall &wall : packing->walls)
-    wall.velocity.setZero();
-  packing->rest();
-  parameters.between_grains().friction = 0.5; // rougher than they were packed: no contact is about to slide
-  packing->change(parameters);
-  return packing;
-}
-
-/// The packing, of which a continuum has taken the place of the lower third and shares the middle one.
-TwoScaleModel make_pressed_model(const coupling::EdgeParameters &edge_parameters)
-{
-  auto grains = make_pressed_packing();
-  const dem::Box box = dem::box_between(grains->walls);
-  const double third = box.edges()[2] / 3.;
-  const std::vector<Vec3> reference = dem::positions_by_id(grains->particles);
-  std::vector<std::int32_t> below;
-  for (std::size_t i = 0; i < grains->particles.size(); ++i)
-    if (grains->particles.position[i][2] < box.low[2] + third)
-      below.push_back(static_cast<std::int32_t>(i));
-  grains->remove_wall(4);
-  grains->remove(below);
-  grains->integrate();
-
-  dealii::Triangulation<3> mesh;
-  fe::make_box({{box.low[0], box.low[1], box.low[2]}, {box.high[0], box.high[1], box.low[2] + 2. * third}, {3, 3, 2}},
-               mesh);
-  fe::ExplicitBodyParameters body;
-  body.initial_stress = fe::uniform_pressure(confining_pressure);
-  body.material = fe::MohrCoulomb({.young_modulus = 4e8, .poisson_ratio = 0.1, .cohesion = 1e9});
-  body.damping = 200.;
-  const double step = grains->parameters().time_step;
-  TwoScaleModel model(std::move(grains), std::make_unique<fe::ExplicitBody>(mesh, body), step);
-  for (unsigned int face = 0; face < 5; ++face)
-    model.body()->prescribe_velocity(face, face / 2);
-  std::vector<double> weight;
-  for (const auto &x : model.body()->node_position())
-    weight.push_back(std::clamp((x[2] - box.low[2] - third) / third, 0., 1.));
-  coupling::CouplingParameters join;
-  join.edge = edge_parameters;
-  model.join(join, weight, reference);
-  return model;
-}
-
 /// The cube of both models.
 dem::Box box_of(const TwoScaleModel &model)
 {
@@ -301,16 +236,6 @@ double largest_path(const TwoScaleModel &model)
   return largest;
 }
 
-void run(TwoScaleModel &model, const int n_steps)
-{
-  for (int step = 0; step < n_steps; ++step)
-  {
-    model.compute_forces();
-    model.kick();
-    model.drift();
-  }
-}
-
 } // namespace
 
 TEST_CASE("pressed grains of which the lower part became a continuum stay where they are")
@@ -319,7 +244,7 @@ TEST_CASE("pressed grains of which the lower part became a continuum stay where 
   // what the weights' gradient takes is given back: both models together bear the pressure as the grains alone did.
   // What is left is the difference of the continuum's even pressure from the packing's: p d / 2 E is 1e-7 m. Free,
   // grains at the edge fall out: the coarse motion alone is held.
-  TwoScaleModel held = make_pressed_model({}), loose = make_pressed_model({.depth = 0.});
+  TwoScaleModel held = make_pressed_model({}), loose = make_pressed_model({.edge = {.depth = 0.}});
   REQUIRE(held.coupling()->edge().size() > 20);
   const auto force_above = [](const TwoScaleModel &model) { return model.grains()->walls[4].force[2]; };
   held.compute_forces();

@@ -97,6 +97,7 @@ std::vector<Column> columns_of(const coupling::ModelEnergy &energy)
           {"energy_wall_work_J", [&energy] { return energy.wall_work; }},
           {"energy_gravity_work_J", [&energy] { return energy.gravity_work; }},
           {"energy_transfer_work_J", [&energy] { return energy.transfer_work; }},
+          {"energy_weight_work_J", [&energy] { return energy.weight_work; }},
           {"energy_curvature_work_J", [&energy] { return energy.curvature_work; }},
           {"energy_search_work_J", [&energy] { return energy.search_work; }},
           {"energy_quadrature_work_J", [&energy] { return energy.quadrature_work; }}};

@@ -1,0 +1,143 @@
+#!/usr/bin/python3
+"""Whether two scales give the stresses of grains alone, on the three strain paths of Wellmann's figure 6.4b.
+
+For every packing, grains alone take the three paths, and a Mohr-Coulomb continuum whose stiffness grows with the pressure
+is fitted to their stresses on all of them (least squares). Then the continuum alone and the two-scale cube with the same
+grains take the same paths. The error of a principal stress is its largest difference from grains alone over the path, over
+the largest stress of grains alone: that of the continuum alone is the law's.
+
+Writes FOLDER/paths.csv, FOLDER/continuum-SEED.json and FOLDER/plots/paths.png, and prints the table. Runs that are finished
+are not run again. Further settings NAME=VALUE of the driver hold for all runs.
+"""
+
+import argparse
+import concurrent.futures
+import csv
+import json
+import statistics
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import least_squares
+from study_runs import STRESSES, errors, run, run_data
+
+PATHS = {"unloading": "path 1", "constant volume": "path 2", "compression": "path 3"}
+MODELS = {"continuum alone": {"Model/kind": "continuum"}, "lumped projection": {},
+          "consistent projection": {"Coupling/projection": "consistent"}}
+
+# What is fitted: name, start, bounds. The modulus is that at 1 MPa.
+UNKNOWNS = [("Continuum/Young's modulus", 5e8, 5e7, 5e9), ("Continuum/stiffness exponent", 0.4, 0.01, 0.99),
+            ("Continuum/Poisson's ratio", 0.15, 0.01, 0.45), ("Continuum/friction angle", 20, 5, 50),
+            ("Continuum/dilation angle", 1, 0, 5)]
+
+
+def settings_of(scaled):
+    """Of the driver, from unknowns that run from 0 to 1 between their bounds (the modulus by its logarithm)."""
+    settings = {"Continuum/reference pressure": 1e6}
+    for x, (name, _, low, high) in zip(scaled, UNKNOWNS):
+        settings[name] = float(low * (high / low) ** x if "modulus" in name else low + x * (high - low))
+    return settings
+
+
+def fit(program, common, alone):
+    """The continuum that is nearest to histories of grains alone, by path."""
+    largest = {path: max(abs(h[name]).max() for name in STRESSES) for path, h in alone.items()}
+
+    def residual(scaled):
+        # One element says what the whole cube does, as all of it is strained alike.
+        settings = {**common, **settings_of(scaled), "Model/kind": "continuum", "Model/elements per edge": 2,
+                    "Loading/time step": 1e-6}
+        with tempfile.TemporaryDirectory() as folder:
+            found = []
+            for path, history in alone.items():
+                target = Path(folder) / path.replace(" ", "-")
+                if not run(program, target, {**settings, "Loading/path": path}):
+                    return np.full(sum(3 * len(h["time_s"]) for h in alone.values()), 1.)
+                mine = run_data.read_history(target)
+                found += [(mine[name] - history[name]) / largest[path] for name in STRESSES]
+            return np.concatenate(found)
+
+    start = [np.log(start / low) / np.log(high / low) if "modulus" in name else (start - low) / (high - low)
+             for name, start, low, high in UNKNOWNS]
+    found = least_squares(residual, start, bounds=(0, 1), diff_step=0.02, xtol=1e-3, ftol=1e-3, max_nfev=12)
+    return settings_of(found.x)
+
+
+def measure(program, folder, seeds, common):
+    """Errors by model and path, one a packing; and those between packings of grains alone."""
+    rows = {}
+    folder_of = lambda model, path, seed: folder / f"{model}-{path}-{seed}".replace(" ", "-")
+    read = lambda model, path, seed: run_data.read_history(folder_of(model, path, seed))
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        jobs = [(seed, path) for seed in seeds for path in PATHS]
+        list(pool.map(lambda job: run(program, folder_of("grains alone", job[1], job[0]),
+                                      {**common, "Model/kind": "grains", "Packing/seed": job[0], "Loading/path": job[1]}),
+                      jobs))
+        for seed in seeds:
+            kept = folder / f"continuum-{seed}.json"
+            if not kept.exists():
+                alone = {path: read("grains alone", path, seed) for path in PATHS}
+                kept.write_text(json.dumps(fit(program, common, alone), indent=1) + "\n")
+        continuum = {seed: json.loads((folder / f"continuum-{seed}.json").read_text()) for seed in seeds}
+        jobs = [(model, path, seed) for seed in seeds for path in PATHS for model in MODELS]
+        done = list(pool.map(lambda job: run(program, folder_of(*job),
+                                             {**common, **continuum[job[2]], **MODELS[job[0]], "Packing/seed": job[2],
+                                              "Loading/path": job[1]}), jobs))
+    for (model, path, seed), is_done in zip(jobs, done):
+        found = errors(read(model, path, seed), read("grains alone", path, seed), False) if is_done else None
+        rows.setdefault((model, path), []).append(found)
+    for path in PATHS:  # what another packing of the same grains would give
+        first = read("grains alone", path, seeds[0])
+        rows["grains of another packing", path] = [errors(read("grains alone", path, seed), first, False)
+                                                   for seed in seeds[1:]]
+    return rows
+
+
+def write_table(rows, path):
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["model", "path", "runs", "failed", *(f"error_{k}_percent" for k in (1, 2, 3)),
+                        "largest_error_percent", "scatter_percent"])
+        for (model, name), found in rows.items():
+            good = [row for row in found if row]
+            worst = [max(row) for row in good]
+            mean = [f"{statistics.mean(column):.2f}" for column in zip(*good)] or ["", "", ""]
+            table.writerow([model, name, len(good), len(found) - len(good), *mean,
+                            f"{statistics.mean(worst):.2f}" if worst else "",
+                            f"{statistics.stdev(worst):.2f}" if len(worst) > 1 else ""])
+
+
+def draw(folder, seed):
+    """Stresses of all models on the three paths, as in Wellmann's figure 6.5."""
+    figure, all_axes = run_data.new_panels(1, len(PATHS))
+    for axes, (path, title) in zip(all_axes.ravel(), PATHS.items()):
+        for model, style in [("grains alone", "-"), *zip(MODELS, (":", "--", "-."))]:
+            history = run_data.read_history(folder / f"{model}-{path}-{seed}".replace(" ", "-"))
+            for k, name in enumerate(STRESSES):
+                axes.plot(1e3 * history["time_s"], 1e-6 * history[name], style, color=run_data.COLOURS[k],
+                          label=f"σ{k + 1}, {model}")
+        axes.set_title(f"{title}: {path}", fontsize="medium")
+        axes.set_xlabel("time in ms")
+    all_axes.ravel()[0].set_ylabel("principal stress in MPa")
+    all_axes.ravel()[0].legend(fontsize="x-small")
+    run_data.save_diagram(figure, str(folder), "paths.png")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=Path, help="the driver two_scale_triaxial")
+    parser.add_argument("folder", type=Path, help="of the runs")
+    parser.add_argument("--seeds", type=int, default=1, help="packings (default 1)")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    folder, seeds = arguments.folder.resolve(), range(1, arguments.seeds + 1)
+    rows = measure(arguments.program.resolve(), folder, seeds, dict(text.split("=", 1) for text in getattr(arguments, "set")))
+    write_table(rows, folder / "paths.csv")
+    print((folder / "paths.csv").read_text(), end="")
+    draw(folder, seeds[0])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "coupling/adapter/two_scale_model.h"
+#include "dem/packing/space.h"
+
+#include <memory>
+#include <vector>
+
+/// A cube of 6 mm under pressure, grains above and continuum below.
+namespace bergamo::test
+{
+
+constexpr double confining_pressure = 1e5; // [Pa]
+
+/// A dense packing between six walls under pressure, at rest.
+std::unique_ptr<dem::Simulation> make_pressed_packing();
+
+/// The packing, of which a continuum takes the place of the lower third and shares the middle one.
+coupling::TwoScaleModel make_pressed_model(const coupling::CouplingParameters &join);
+
+/// Grains of which those in the lower third of a box are gone, with a continuum on rollers in the lower two thirds.
+coupling::TwoScaleModel join_below(std::unique_ptr<dem::Simulation> grains, const dem::Box &box,
+                                   const coupling::CouplingParameters &join, const std::vector<Vec3> &reference_by_id);
+
+void run(coupling::TwoScaleModel &model, int n_steps);
+
+} // namespace bergamo::test
