@@ -64,30 +64,30 @@ def fit(program, common, alone):
     return settings_of(found.x)
 
 
-def measure(program, folder, seeds, common):
+def measure(program, folder, seeds, paths, common):
     """Errors by model and path, one a packing; and those between packings of grains alone."""
     rows = {}
     folder_of = lambda model, path, seed: folder / f"{model}-{path}-{seed}".replace(" ", "-")
     read = lambda model, path, seed: run_data.read_history(folder_of(model, path, seed))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        jobs = [(seed, path) for seed in seeds for path in PATHS]
+        jobs = [(seed, path) for seed in seeds for path in paths]
         list(pool.map(lambda job: run(program, folder_of("grains alone", job[1], job[0]),
                                       {**common, "Model/kind": "grains", "Packing/seed": job[0], "Loading/path": job[1]}),
                       jobs))
         for seed in seeds:
             kept = folder / f"continuum-{seed}.json"
             if not kept.exists():
-                alone = {path: read("grains alone", path, seed) for path in PATHS}
+                alone = {path: read("grains alone", path, seed) for path in paths}
                 kept.write_text(json.dumps(fit(program, common, alone), indent=1) + "\n")
         continuum = {seed: json.loads((folder / f"continuum-{seed}.json").read_text()) for seed in seeds}
-        jobs = [(model, path, seed) for seed in seeds for path in PATHS for model in MODELS]
+        jobs = [(model, path, seed) for seed in seeds for path in paths for model in MODELS]
         done = list(pool.map(lambda job: run(program, folder_of(*job),
                                              {**common, **continuum[job[2]], **MODELS[job[0]], "Packing/seed": job[2],
                                               "Loading/path": job[1]}), jobs))
     for (model, path, seed), is_done in zip(jobs, done):
         found = errors(read(model, path, seed), read("grains alone", path, seed), False) if is_done else None
         rows.setdefault((model, path), []).append(found)
-    for path in PATHS:  # what another packing of the same grains would give
+    for path in paths:  # what another packing of the same grains would give
         first = read("grains alone", path, seeds[0])
         rows["grains of another packing", path] = [errors(read("grains alone", path, seed), first, False)
                                                    for seed in seeds[1:]]
@@ -108,16 +108,16 @@ def write_table(rows, path):
                             f"{statistics.stdev(worst):.2f}" if len(worst) > 1 else ""])
 
 
-def draw(folder, seed):
+def draw(folder, seed, paths):
     """Stresses of all models on the three paths, as in Wellmann's figure 6.5."""
-    figure, all_axes = run_data.new_panels(1, len(PATHS))
-    for axes, (path, title) in zip(all_axes.ravel(), PATHS.items()):
+    figure, all_axes = run_data.new_panels(1, len(paths))
+    for axes, path in zip(all_axes.ravel(), paths):
         for model, style in [("grains alone", "-"), *zip(MODELS, (":", "--", "-."))]:
             history = run_data.read_history(folder / f"{model}-{path}-{seed}".replace(" ", "-"))
             for k, name in enumerate(STRESSES):
                 axes.plot(1e3 * history["time_s"], 1e-6 * history[name], style, color=run_data.COLOURS[k],
                           label=f"σ{k + 1}, {model}")
-        axes.set_title(f"{title}: {path}", fontsize="medium")
+        axes.set_title(f"{PATHS[path]}: {path}", fontsize="medium")
         axes.set_xlabel("time in ms")
     all_axes.ravel()[0].set_ylabel("principal stress in MPa")
     all_axes.ravel()[0].legend(fontsize="x-small")
@@ -129,14 +129,17 @@ def main():
     parser.add_argument("program", type=Path, help="the driver two_scale_triaxial")
     parser.add_argument("folder", type=Path, help="of the runs")
     parser.add_argument("--seeds", type=int, default=1, help="packings (default 1)")
+    parser.add_argument("--paths", nargs="+", choices=PATHS, default=list(PATHS),
+                        help="these alone; the continuum is fitted to them")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     folder, seeds = arguments.folder.resolve(), range(1, arguments.seeds + 1)
-    rows = measure(arguments.program.resolve(), folder, seeds, dict(text.split("=", 1) for text in getattr(arguments, "set")))
+    common = dict(text.split("=", 1) for text in getattr(arguments, "set"))
+    rows = measure(arguments.program.resolve(), folder, seeds, arguments.paths, common)
     write_table(rows, folder / "paths.csv")
     print((folder / "paths.csv").read_text(), end="")
-    draw(folder, seeds[0])
+    draw(folder, seeds[0], arguments.paths)
 
 
 if __name__ == "__main__":
