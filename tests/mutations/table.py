@@ -12,6 +12,8 @@ TESTS = {
     "strip_footing": ["/usr/bin/python3", "{tree}/tests/regression/strip_footing.py", "{build}/drivers/strip_footing",
                       "{tests}"],
     "beam_impact": ["/usr/bin/python3", "{tree}/tests/regression/beam_impact.py", "{build}/drivers/beam_impact", "{tests}"],
+    "overlap_waves": ["/usr/bin/python3", "{tree}/tests/regression/overlap_waves.py", "{build}/drivers/overlap_waves",
+                      "{tests}"],
     "brachistochrone": ["/usr/bin/python3", "{tree}/tests/regression/brachistochrone.py",
                         "{build}/drivers/brachistochrone", "{tests}"],
     "silo_discharge": ["/usr/bin/python3", "{tree}/tests/regression/silo_discharge.py",
@@ -305,6 +307,13 @@ MUTATIONS = [
         ("impact.cc", "for (const Boundary end : {left, right})", "for (const Boundary end : {left})",
          "Results.test_dissertation"),
         ("parameters.cc", "/ (2. * (1. - nu * nu))", "/ (1. - nu * nu)", "Results.test_dissertation"),
+    ),
+    *in_folder(
+        "drivers/overlap_waves", "overlap_waves",
+        ("lattice.cc", "lattice.inertia = 0.4 *", "lattice.inertia = 4. *", "Results.test_grains_alone"),
+        ("lattice.h", "0.5 * tangential / spacing", "tangential / spacing", "Results.test_grains_alone"),
+        ("wave_column.cc", "visit(\"work_of_pulse\", work_of_pulse);", "", "Restart"),
+        ("wave_column.cc", "work_of_pressure += dt", "work_of_pressure += 2. * dt", "Results.test_grains_alone"),
     ),
     *in_folder(
         "drivers/brachistochrone", "brachistochrone",
