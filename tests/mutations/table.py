@@ -193,7 +193,7 @@ MUTATIONS = [
         ("parameter_scan.cc", "if (!open.empty())", "if (false)", "mistakes in the structure*"),
         ("plots.cc", "POSIX_SPAWN_SETPGROUP", "0", "*"),
         ("progress.cc", "whole % 3600 / 60", "whole / 60", "durations read well"),
-        ("report_run.cc", "summary.write(folder.summary());", "", "*"),
+        ("report_run.cc", "summary.write(folder.summary());", "", "the end of a run*"),
         ("run_folder.cc", 'name.ends_with(".partial") || name.ends_with(".part")', "false", "*"),
         ("folder_probe.cc", "&& ::rmdir(probe.c_str()) == 0", "", "*"),
         ("summary.cc", "*same = {name, std::move(value), unit};", "figures.push_back({name, std::move(value), unit});",

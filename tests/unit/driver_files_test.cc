@@ -2,18 +2,15 @@
 #include "dem/core/whole_file.h"
 #include "drivers/common/history.h"
 #include "drivers/common/run_folder.h"
-#include "drivers/common/summary.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
 
 #include <array>
 #include <cmath>
 #include <csignal>
-#include <limits>
 
 using namespace bergamo::driver;
 using bergamo::ConfigError;
@@ -270,40 +267,4 @@ TEST_CASE("a history says when the disk is full")
       history.append(std::array{0.1 * i, 1.0});
   };
   CHECK_THROWS_WITH(fill(), Contains("h.csv") && Contains("free some space"));
-}
-
-TEST_CASE("a summary keeps its order, its exact numbers and its names")
-{
-  Summary summary;
-  summary.set("model", "Arlequin");
-  summary.set(RunFigures{.wall_time_s = 1.0 / 3.0, .steps = 123456789012345, .particles = 10});
-  summary.set("converged", true);
-  summary.set("axis", std::vector<double>{1, 0.1 + 0.2});
-  summary.set("gap", std::numeric_limits<double>::infinity());
-  summary.set("model", "DEM"); // changes it in its place
-  TemporaryFolder folder;
-  summary.write(folder / "summary.json");
-  const auto json = nlohmann::ordered_json::parse(content_of(folder / "summary.json"));
-  CHECK(json.begin().key() == "model");
-  CHECK(json["model"] == "DEM");
-  CHECK(json["wall_time_s"].get<double>() == 1.0 / 3.0);
-  CHECK(json["steps"].get<std::int64_t>() == 123456789012345);
-  CHECK(json["converged"] == true);
-  CHECK(json["axis"][1].get<double>() == 0.1 + 0.2);
-  CHECK(json["gap"].is_null());
-  for (const char *name : {"wall_time_s", "steps", "particles", "threads", "particle_steps_per_second", "time_step_s",
-                           "stable_time_step_s", "energy_residual", "undecided_contacts", "max_overlap_over_radius"})
-    CHECK(json.contains(name));
-}
-
-TEST_CASE("the table of results is aligned")
-{
-  Summary summary;
-  summary.set("model", "Arlequin");
-  summary.set("wall_time_s", 12.3456789, "s");
-  summary.set("steps", 1000);
-  CHECK(summary.table() == "  model        Arlequin\n"
-                           "  wall_time_s  12.3457 s\n"
-                           "  steps           1000\n");
-  CHECK(Summary().table().empty());
 }

@@ -169,12 +169,12 @@ TEST_CASE("a layered body of equal materials is the homogeneous one, bit for bit
   ExplicitBodyParameters parameters;
   const Shape shape = GENERATE(Shape::plain, Shape::bending, Shape::quadratic);
   set_shape(parameters, shape);
-  const int n_steps = shape == Shape::quadratic ? 60 : 300; // 27 points cost some ten times as much
+  const int n_steps = shape == Shape::quadratic ? 30 : 100; // 27 points cost some ten times as much
   parameters.gravity = {0, 0, -gravity};
   parameters.damping = 3;
   if (!std::holds_alternative<NeoHooke>(material))
     parameters.initial_stress = uniform_pressure(2e3);
-  dealii::Triangulation<3> mesh = divided_box({{0, 0, 0}, {1, 1, 1}, {3, 4, 5}}, 1, 0.3);
+  dealii::Triangulation<3> mesh = divided_box({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}, 1, 0.3); // no full packs
   if (GENERATE(false, true)) // deal.II computes the geometry of equal cells once
     dealii::GridTools::distort_random(0.2, mesh, true, 3);
   ExplicitBodyParameters layered = parameters;
@@ -202,6 +202,7 @@ TEST_CASE("a layered body of equal materials is the homogeneous one, bit for bit
   for (std::size_t e = 0; e < one.n_elements(); ++e)
     CHECK(one.state_of(e).stress == two.state_of(e).stress);
   const BodyEnergy a = one.energy(), b = two.energy();
+  CHECK((a.plastic_dissipation > 0) != std::holds_alternative<NeoHooke>(material)); // else nothing has flowed
   CHECK(a.kinetic == b.kinetic);
   CHECK(a.elastic == Approx(b.elastic).epsilon(1e-12));
   CHECK(a.plastic_dissipation == Approx(b.plastic_dissipation).epsilon(1e-12));
