@@ -83,7 +83,7 @@ bool TriaxialRun::pack()
   packing_steps = grains.n_steps;
   start = end_packing(grains, parameters);
   specimen = std::make_unique<Specimen>(parameters, std::move(packing->grains), start);
-  specimen->settle();
+  specimen->settle(run.progress());
   specimen->model.grains()->reset_accounts();
   packing.reset();
   return true;

@@ -10,18 +10,44 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <variant>
 
 namespace bergamo::driver
 {
 namespace
 {
 
+/// A stress with as much of its deviator as a law bears: a small packing's may be beyond what a continuum has for it.
+Vec3 bearable(const fe::Material &material, const Vec3 &stress)
+{
+  const auto *law = std::get_if<fe::MohrCoulomb>(&material);
+  const Vec3 mean = Vec3::Constant(stress.mean());
+  const auto with = [&](const double share) -> Vec3 { return mean + share * (stress - mean); };
+  const auto is_borne = [&](const double share)
+  {
+    const Vec3 s = with(share);
+    return !law || law->yield_function({s[0], s[1], s[2], 0., 0., 0.}) <= 0.;
+  };
+  if (is_borne(1.))
+    return stress;
+  double borne = 0., too_much = 1.;
+  for (int halving = 0; halving < 30; ++halving)
+  {
+    const double middle = 0.5 * (borne + too_much);
+    (is_borne(middle) ? borne : too_much) = middle;
+  }
+  return with(borne);
+}
+
 /// Each layer with its own stress; with none given, all under the packing's pressure.
 fe::InitialStress initial_stress(const TriaxialParameters &parameters, const LoadingStart &start)
 {
   if (start.stress_by_layer.empty())
     return fe::uniform_pressure(parameters.compression.pressure);
-  return [layers = start.stress_by_layer, low = start.box.low[2],
+  std::vector<Vec3> layers;
+  for (const Vec3 &stress : start.stress_by_layer)
+    layers.push_back(bearable(parameters.continuum.material(), stress));
+  return [layers, low = start.box.low[2],
           height = start.box.edges()[2] / static_cast<double>(start.stress_by_layer.size())](const auto &place)
   {
     const auto layer = static_cast<std::ptrdiff_t>(std::floor((place[2] - low) / height));
@@ -111,12 +137,21 @@ void Specimen::join(const std::vector<Vec3> &reference_by_id)
   model.join(parameters.coupling, weight, reference_by_id);
 }
 
-void Specimen::settle()
+void Specimen::settle(Progress &progress)
 {
   if (!model.overlap())
     return;
   model.compute_forces();
-  fe::find_equilibrium(*model.body());
+  try
+  {
+    fe::find_equilibrium(*model.body());
+  }
+  catch (const RunError &)
+  {
+    progress.warn(
+        "the continuum does not bear what the packing's grains put on it from place to place: it starts with the "
+        "packing's mean stresses, and yields; strengthen the material or take larger elements");
+  }
   model.overlap()->begin();
 }
 

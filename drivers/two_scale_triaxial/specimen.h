@@ -29,9 +29,9 @@ public:
   Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start);
 
   /// Brings a continuum that is joined to rest under what the grains of the overlap put on it: a packing's forces
-  /// differ from place to place, and its own stresses do not yet. Call once, before the first step. Needs MPI, see
-  /// run_with_mpi(). @throws RunError where it cannot bear them
-  void settle();
+  /// differ from place to place, and its own stresses do not yet. Ground too weak to bear them starts as it is,
+  /// with a warning. Call once, before the first step. Needs MPI, see run_with_mpi().
+  void settle(Progress &progress);
 
   /// One time step towards the strains at its end; measure() may be called in between. Throws RunError where the
   /// continuum has become too stiff for the step.
