@@ -6,6 +6,7 @@ from typing import NamedTuple
 # How the tests of a target are run; {tests} is the mutation's own choice of them.
 TESTS = {
     "unit_fe": ["{build}/tests/unit/unit_fe", "{tests}"],
+    "unit_coupling": ["{build}/tests/unit/unit_coupling", "{tests}"],
     "unit_driver": ["{build}/tests/unit/unit_driver", "{tests}"],
     "verification_coupled": ["{build}/tests/verification/verification_coupled", "{tests}"],
     "verification_fe": ["{build}/tests/verification/verification_fe", "{tests}"],
@@ -275,7 +276,19 @@ MUTATIONS = [
          "Hypoplastic sand*"),
     ),
     *in_folder(
+        "coupling/arlequin", "unit_coupling",
+        ("held_edge.cc", "particle_weight[particle] * overlap.particle_volume", "overlap.particle_volume",
+         "springs and dead loads*"),
+        ("held_edge.cc", "shift_[k] += moved[found->second];", "", "forces and energy of an overlap*"),
+        ("penalty.cc", "kept_[i] = found->second;", "kept_[i].setZero();", "forces and energy of an overlap*"),
+        ("penalty.cc", "put_in_ += difference_energy_;", "", "forces and energy of an overlap*"),
+    ),
+    *in_folder(
         "coupling/adapter", "verification_coupled",
+        ("arlequin_coupling.cc", "work_of(transfer_); // the first half", "-work_of(transfer_); // the first half",
+         "under pressure*"),
+        ("arlequin_coupling.cc", "transfer.force[k] = transfer_.force[old->second];", "", "grains pass*"),
+        ("model_energy.cc", "e.weight_work = g.exchanged;", "", "grains pass*"),
         ("surface_contact.cc", "2. * body_->largest_square", "0. * body_->largest_square", "the stable step of a contact*"),
         ("touched_faces.cc", "+= value * force;", "-= value * force;", "grains and a free body of elements*"),
         ("touched_faces.cc", "+= of_corners.share[k] * value;", "+= 0.1 * of_corners.share[k] * value;",
