@@ -54,7 +54,7 @@ ArlequinCoupling::ArlequinCoupling(GrainsMover &grains, SolidMover &body, const 
   for (std::vector<Vec3> *external : {&p.external_force, &p.external_torque})
     if (external->empty())
       external->assign(p.size(), Vec3::Zero());
-  list_uncoupled();
+  look_at_overlap();
 }
 
 void ArlequinCoupling::apply()
@@ -111,13 +111,10 @@ bool ArlequinCoupling::must_be_renewed() const
 {
   if (parameters_.renewal == 0.)
     return false;
-  const double limit = parameters_.renewal * penalty_.overlap().mean_diameter();
   const dem::Simulation &grains = grains_.simulation();
-  return state_.largest_motion > limit ||
-         std::any_of(uncoupled_.begin(), uncoupled_.end(),
-                     [&](const std::int64_t id) {
-                       return (grains.particles.position[grains.index_of(id)] - reference_by_id_[id]).norm() > limit;
-                     });
+  const auto has_moved_far = [&](const std::int64_t id)
+  { return (grains.particles.position[grains.index_of(id)] - reference_by_id_[id]).norm() > farthest_; };
+  return state_.largest_motion > farthest_ || std::any_of(uncoupled_.begin(), uncoupled_.end(), has_moved_far);
 }
 
 void ArlequinCoupling::renew()
@@ -158,13 +155,14 @@ void ArlequinCoupling::renew()
   particle_displacement_.resize(n);
   particle_force_.resize(n);
   penalty_.renew(std::move(overlap), moved);
-  list_uncoupled();
+  look_at_overlap();
 }
 
-/// Those that may come into the elements.
-void ArlequinCoupling::list_uncoupled()
+/// Notes when it has to be made anew, and the grains that may come into its elements.
+void ArlequinCoupling::look_at_overlap()
 {
   const Overlap &overlap = penalty_.overlap();
+  farthest_ = parameters_.renewal * overlap.mean_diameter();
   const std::unordered_set<std::int64_t> coupled(overlap.particle_id.begin(), overlap.particle_id.end());
   uncoupled_.clear();
   for (const std::int64_t id : grains_.simulation().particles.id)

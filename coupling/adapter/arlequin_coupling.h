@@ -107,7 +107,7 @@ private:
   };
 
   void start();
-  void list_uncoupled();
+  void look_at_overlap();
   bool must_be_renewed() const;
   void compute_penalty(std::span<double> fe_force);
   void follow_transfer();
@@ -123,6 +123,7 @@ private:
   std::vector<double> nodal_weight_;
   std::vector<Vec3> reference_by_id_;   // [m]
   std::vector<std::int64_t> uncoupled_; // grains that may come into the elements
+  double farthest_ = 0.;                // motion after which the overlap is made anew [m]
   PenaltyState state_;
   std::vector<Vec3>
       resting_place_; // of the coupled particles, without a difference if the body had no displacement [m]

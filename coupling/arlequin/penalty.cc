@@ -118,13 +118,17 @@ PenaltyState PenaltyCoupling::add_forces(const std::span<const Eigen::Vector3d> 
       energy += overlap_.particle_volume[particle] * particle_difference_[particle].dot(particle_work_[particle]);
     return energy;
   };
-  load([&](const std::size_t i) -> Eigen::Vector3d { return penalty_ * difference_[i]; });
-  double stored = 0.5 * energy_of_loads();
+  double stored = 0.;
   if (loads == Loads::all && n_renewals_ > 0)
   {
-    load([&](const std::size_t i) -> Eigen::Vector3d { return kept_[i]; });
-    stored += energy_of_loads();
+    load([&](const std::size_t i) -> Eigen::Vector3d { return kept_[i] + 0.5 * penalty_ * difference_[i]; });
+    stored = energy_of_loads();
     load([&](const std::size_t i) -> Eigen::Vector3d { return kept_[i] + penalty_ * difference_[i]; });
+  }
+  else
+  {
+    load([&](const std::size_t i) -> Eigen::Vector3d { return penalty_ * difference_[i]; });
+    stored = 0.5 * energy_of_loads();
   }
   for (std::size_t particle = 0; particle < n_particles; ++particle)
     particle_force[particle] = -overlap_.particle_volume[particle] * particle_work_[particle];

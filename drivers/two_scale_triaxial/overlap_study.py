@@ -9,13 +9,11 @@ Writes FOLDER/study.csv and FOLDER/plots/study.png and prints the table. Runs th
 that was broken off goes on.
 """
 
-import argparse
 import concurrent.futures
 import csv
 import statistics
-from pathlib import Path
 
-from study_runs import STRESSES, errors, run, run_data
+from study_runs import STRESSES, argument_parser, errors, run, run_data
 
 FILES = ("two_scale_triaxial.prm", "nearly_elastic.prm")
 
@@ -108,10 +106,7 @@ def draw(rows, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path, help="the driver two_scale_triaxial")
-    parser.add_argument("folder", type=Path, help="of the runs")
-    parser.add_argument("--seeds", type=int, default=1, help="packings of each variant (default 1)")
+    parser = argument_parser(__doc__)
     parser.add_argument("--only", nargs="+", choices=sorted(VARIANTS), help="these groups alone")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)

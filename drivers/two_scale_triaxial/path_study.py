@@ -10,7 +10,6 @@ Writes FOLDER/paths.csv, FOLDER/continuum-SEED.json and FOLDER/plots/paths.png, 
 are not run again. Further settings NAME=VALUE of the driver hold for all runs.
 """
 
-import argparse
 import concurrent.futures
 import csv
 import json
@@ -20,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 from scipy.optimize import least_squares
-from study_runs import STRESSES, errors, run, run_data
+from study_runs import STRESSES, argument_parser, errors, run, run_data
 
 PATHS = {"unloading": "path 1", "constant volume": "path 2", "compression": "path 3"}
 MODELS = {"continuum alone": {"Model/kind": "continuum"}, "lumped projection": {},
@@ -125,10 +124,7 @@ def draw(folder, seed, paths):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path, help="the driver two_scale_triaxial")
-    parser.add_argument("folder", type=Path, help="of the runs")
-    parser.add_argument("--seeds", type=int, default=1, help="packings (default 1)")
+    parser = argument_parser(__doc__)
     parser.add_argument("--paths", nargs="+", choices=PATHS, default=list(PATHS),
                         help="these alone; the continuum is fitted to them")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")

@@ -1,5 +1,6 @@
 """What the studies of the two-scale cube share: runs of the driver that are not run again, and the errors of stresses."""
 
+import argparse
 import subprocess
 import sys
 from pathlib import Path
@@ -31,3 +32,12 @@ def errors(history, reference, from_start):
     values = lambda h: [h[name] - (h[name][0] if from_start else 0) for name in STRESSES]
     largest = max(abs(stress).max() for stress in values(reference))
     return [100 * abs(a - b).max() / largest for a, b in zip(values(history), values(reference))]
+
+
+def argument_parser(description):
+    """What every study asks for: the driver's program, a folder for the runs, and how many packings."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=Path, help="the driver two_scale_triaxial")
+    parser.add_argument("folder", type=Path, help="of the runs")
+    parser.add_argument("--seeds", type=int, default=1, help="packings (default 1)")
+    return parser

@@ -104,3 +104,15 @@ class DriverCase(unittest.TestCase):
             self.assertIn(word, result.stderr)
         self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
         self.assertEqual(out.exists(), writes)
+
+
+class OneThreadCase(DriverCase):
+    """Runs of so few grains that they are not worth a team of threads; those that succeed have nothing to say."""
+
+    def command(self, *arguments, **files):
+        words = super().command(*arguments, **files)
+        return words if "--threads" in words else [*words, "--threads", "1"]
+
+    def check_success(self, result):
+        super().check_success(result)
+        self.assertEqual(result.stderr, "")

@@ -12,7 +12,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from driver_process import DriverCase, SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
+from driver_process import OneThreadCase, SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 SMOKE = Path(__file__).resolve().parents[2] / "drivers" / "overlap_waves" / "smoke.prm"
@@ -48,17 +48,8 @@ def group_velocity(wave, length):
     return (frequency(q + small) - frequency(q - small)) / (2 * small)
 
 
-class Case(DriverCase):
+class Case(OneThreadCase):
     program, parameters = PROGRAM, SMOKE
-
-    def command(self, *arguments, **files):
-        """One thread: so few grains are not worth a team."""
-        words = super().command(*arguments, **files)
-        return words if "--threads" in words else [*words, "--threads", "1"]
-
-    def check_success(self, result):
-        super().check_success(result)
-        self.assertEqual(result.stderr, "")
 
 
 class Results(Case):

@@ -11,7 +11,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from driver_process import DriverCase, SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
+from driver_process import OneThreadCase, SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 SMOKE = Path(__file__).resolve().parents[2] / "drivers" / "penetration" / "smoke.prm"
@@ -20,17 +20,8 @@ FRICTION = 0.1  # between grains and intruder
 SHORT = ["Sand/Settling/time=0.02", "Penetration/depth=1e-3", "Penetration/start time=2e-3", "Output/samples=40"]
 
 
-class Case(DriverCase):
+class Case(OneThreadCase):
     program, parameters = PROGRAM, SMOKE
-
-    def command(self, *arguments, **files):
-        """One thread: so few grains are not worth a team."""
-        words = super().command(*arguments, **files)
-        return words if "--threads" in words else [*words, "--threads", "1"]
-
-    def check_success(self, result):
-        super().check_success(result)
-        self.assertEqual(result.stderr, "")
 
     def check_balances(self, figures, rows):
         """What holds whatever the grains do: nothing touches at first; tip and shaft are all; what drives the body is

@@ -94,8 +94,8 @@ class Results(Case):
 
     def test_needs_no_mpi(self):
         """Where MPI could not start, one model alone does: only the start of coupled ones has a use for it."""
-        command = shlex.join(self.command(self.tmp / "run", "--set", "Model/kind=grains", "--set", "Loading/isotropic time=1e-5", "--set",
-                                          "Loading/shear time=1e-5"))
+        command = shlex.join(self.command(self.tmp / "run", "--set", "Model/kind=grains", "--set",
+                                          "Loading/isotropic time=1e-5", "--set", "Loading/shear time=1e-5"))
         result = subprocess.run(["bash", "-c", f"export TMPDIR=/proc/none; ulimit -n 20; exec {command}"],
                                 capture_output=True, text=True)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
