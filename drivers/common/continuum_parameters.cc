@@ -14,8 +14,9 @@ void declare_mohr_coulomb(ParameterFile &file, const std::string &section, fe::M
            {.lowest = 0, .highest = 0.5, .highest_included = false});
   file.add(section, "friction angle", continuum.friction_angle, "[degree]",
            {.lowest = 0, .highest = 90, .highest_included = false});
-  file.add(section, "dilation angle", continuum.dilation_angle, "at most the friction angle [degree]",
-           {.lowest = 0, .highest = 90, .highest_included = false});
+  file.add(section, "dilation angle", continuum.dilation_angle,
+           "at most the friction angle; negative for loose sand, which contracts [degree]",
+           Range::strictly_between(-90, 90));
   file.add(section, "cohesion", continuum.cohesion, "[Pa]", Range::non_negative());
   file.add(section, "reference pressure", continuum.reference_pressure,
            "at which Young's modulus holds; 0: it holds at any pressure [Pa]", Range::non_negative());

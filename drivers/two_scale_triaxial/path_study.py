@@ -28,7 +28,7 @@ MODELS = {"continuum alone": {"Model/kind": "continuum"}, "lumped projection": {
 # What is fitted: name, start, bounds. The modulus is that at 1 MPa.
 UNKNOWNS = [("Continuum/Young's modulus", 5e8, 5e7, 5e9), ("Continuum/stiffness exponent", 0.4, 0.01, 0.99),
             ("Continuum/Poisson's ratio", 0.15, 0.01, 0.45), ("Continuum/friction angle", 20, 5, 50),
-            ("Continuum/dilation angle", 1, 0, 5)]
+            ("Continuum/dilation angle", -1, -15, 5)]
 
 
 def settings_of(scaled):

@@ -16,8 +16,8 @@ struct MohrCoulombParameters
 {
   double young_modulus = 60e6;     ///< [Pa], > 0
   double poisson_ratio = 0.145;    ///< [-], in [0, 0.5)
-  double friction_angle = 23.15;   ///< [degrees], in [dilation_angle, 90)
-  double dilation_angle = 5.17;    ///< [degrees], in [0, friction_angle]
+  double friction_angle = 23.15;   ///< [degrees], in [0, 90), at least dilation_angle
+  double dilation_angle = 5.17;    ///< [degrees], at most friction_angle; negative: flow contracts
   double cohesion = 15;            ///< [Pa], >= 0; not zero together with the friction angle
   double density = 1600;           ///< of the packing as a whole [kg/m³], > 0
   double reference_pressure = 0;   ///< p_r at which the Young's modulus holds [Pa]; 0: it holds at any pressure
@@ -56,6 +56,7 @@ struct PrincipalReturn
 
 /// Small-strain, perfectly plastic, non-associative Mohr–Coulomb law: with σ1 >= σ2 >= σ3, tension positive,
 ///   Φ = σ1 − σ3 + (σ1 + σ3) sin φ − 2 c cos φ <= 0,   flow along ∂Ψ/∂σ, Ψ = Φ with ψ in place of φ.
+/// A negative ψ is that of loose sand, which contracts as it is sheared: at constant volume its pressure falls.
 /// Implicit return in principal stresses, closed form: de Souza Neto, Perić, Owen, Computational Methods for
 /// Plasticity (2008), sec. 8.2.
 ///

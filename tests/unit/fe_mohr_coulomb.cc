@@ -60,8 +60,14 @@ MohrCoulombParameters random_parameters(std::mt19937_64 &random)
   p.young_modulus = std::pow(10., 6 + 3 * unit(random));
   p.poisson_ratio = 0.48 * unit(random);
   p.friction_angle = 1 + 50 * unit(random);
-  const double choice = unit(random); // flow without dilation, associative flow and all between
-  p.dilation_angle = choice < 0.2 ? 0 : choice < 0.4 ? p.friction_angle : p.friction_angle * unit(random);
+  // Flow without dilation, associative flow, all between, and contraction up to two fifths of the elastic limit.
+  const double choice = unit(random), bulk_over_shear = 2 * (1 + p.poisson_ratio) / 3 / (1 - 2 * p.poisson_ratio);
+  const double contraction = 0.4 / std::sin(p.friction_angle * degree) / (bulk_over_shear + 1. / 3);
+  p.dilation_angle = choice < 0.2   ? 0
+                     : choice < 0.4 ? p.friction_angle
+                     : choice < 0.8
+                         ? p.friction_angle * unit(random)
+                         : -unit(random) * std::min(p.friction_angle, std::asin(std::min(1., contraction)) / degree);
   p.cohesion = unit(random) < 0.2 ? 0 : 1000 * unit(random);
   return p;
 }
@@ -271,12 +277,14 @@ TEST_CASE("Mohr-Coulomb: 10 000 random strain steps end on or inside the yield s
       for (int i = 0; i < 6; ++i)
         REQUIRE(after[i] - before[i] + update.plastic_strain[i] ==
                 Approx(increment[i]).margin(1e-12 * (norm(increment) + norm(before) + norm(after))));
-      // The new stress dissipates on the way to it (c >= 0, ψ <= φ). Rounding scales with the trial stress.
+      // The new stress dissipates on the way to it (c >= 0, ψ <= φ), but for a contraction under tension, which only
+      // cohesion allows: up to c cot φ sin ψ per unit of flow. Rounding scales with the trial stress.
       Stress trial = material.elastic_stress(increment);
       for (int i = 0; i < 6; ++i)
         trial[i] += stress[i];
-      REQUIRE(energy_density(update.stress, update.plastic_strain) >=
-              -1e-13 * norm(trial) * norm(material.elastic_strain(trial)));
+      if (p.dilation_angle >= 0 || mean_stress(update.stress) <= 0)
+        REQUIRE(energy_density(update.stress, update.plastic_strain) >=
+                -1e-13 * norm(trial) * norm(material.elastic_strain(trial)));
       Stress middle;
       for (int i = 0; i < 6; ++i)
         middle[i] = 0.5 * (stress[i] + update.stress[i]);
@@ -318,7 +326,7 @@ TEST_CASE("Mohr-Coulomb: the sector is the only admissible one with positive mul
     {
       // Only flow without dilation leaves a gap: beyond the apex no multiplier lowers the mean stress.
       ++without_any;
-      REQUIRE(p.dilation_angle == 0);
+      REQUIRE(p.dilation_angle <= 0);
       REQUIRE(update.sector == Sector::apex);
       continue;
     }
@@ -488,7 +496,8 @@ TEST_CASE("Mohr-Coulomb: bad parameters are named", "[fe]")
   rejected([](auto &p) { p.poisson_ratio = -0.1; }, "poisson_ratio");
   rejected([](auto &p) { p.friction_angle = 90; }, "friction_angle");
   rejected([](auto &p) { p.dilation_angle = 30; }, "dilation_angle");
-  rejected([](auto &p) { p.dilation_angle = -1; }, "dilation_angle");
+  rejected([](auto &p) { p.dilation_angle = -90; }, "dilation_angle");
+  rejected([](auto &p) { p.poisson_ratio = 0.49, p.dilation_angle = -10; }, "less contraction");
   rejected([](auto &p) { p.cohesion = -1; }, "cohesion");
   rejected([](auto &p) { p.cohesion = p.friction_angle = p.dilation_angle = 0; }, "cohesion");
   rejected([](auto &p) { p.density = 0; }, "density");

@@ -27,12 +27,12 @@ double largest(const Moduli &moduli)
   return result;
 }
 
-MohrCoulomb sand(const double reference_pressure = 0)
+MohrCoulomb sand(const double reference_pressure = 0, const double dilation_angle = 8)
 {
   return MohrCoulomb({.young_modulus = 60e6,
                       .poisson_ratio = 0.2,
                       .friction_angle = 30,
-                      .dilation_angle = 8,
+                      .dilation_angle = dilation_angle,
                       .cohesion = 2e3,
                       .reference_pressure = reference_pressure});
 }
@@ -41,7 +41,7 @@ MohrCoulomb sand(const double reference_pressure = 0)
 
 TEST_CASE("Mohr-Coulomb: the tangent is the derivative of the stress in every sector", "[fe]")
 {
-  const MohrCoulomb law = sand(GENERATE(0., 5e4));
+  const MohrCoulomb law = sand(GENERATE(0., 5e4), GENERATE(5., -5.));
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   std::map<Sector, int> n_cases;

@@ -109,10 +109,11 @@ TEST_CASE("Plane strain compression: the same strength, the middle stress by ela
   CHECK(path.last_ratio == Approx(n_psi - 1).epsilon(1e-6));
 }
 
-TEST_CASE("Hydrostatic tension: elastic with 3K up to the apex c cot phi, constant there, also without dilation",
+TEST_CASE("Hydrostatic tension: elastic with 3K up to the apex c cot phi, constant there, also without dilation or "
+          "with contraction",
           "[fe]")
 {
-  for (const double dilation : {0., 5.17, 23.15})
+  for (const double dilation : {-5., 0., 5.17, 23.15})
   {
     MohrCoulombParameters p = parameters;
     p.dilation_angle = dilation;
@@ -144,4 +145,29 @@ TEST_CASE("Simple shear without dilation from a hydrostatic state: shear stress 
     stress = material.update(stress, {0, 0, 0, 1e-5, 0, 0}).stress;
   CHECK(stress[3] == Approx(confining * std::sin(phi) + p.cohesion * std::cos(phi)).epsilon(1e-8));
   CHECK(stress[0] == Approx(-confining).epsilon(1e-10));
+}
+
+TEST_CASE("Loose sand sheared at constant volume loses its pressure as it contracts", "[fe]")
+{
+  // Triaxial compression from p0 without a change of volume, q = σ1 − σ3. Elastic, q = 3 G ε at a constant p. On the
+  // edge q = M p + k; with D = 2 sin ψ/(1 − sin ψ) of volume per unit of axial flow λ: p' = K D λ and
+  // q' = 3 G (1 − λ (1 + D/3)) by axial strain, so λ = 3 G/(3 G (1 + D/3) + M K D).
+  MohrCoulombParameters p = parameters;
+  p.dilation_angle = -8;
+  const MohrCoulomb material(p);
+  const double sine = std::sin(phi), contraction = std::sin(p.dilation_angle * std::numbers::pi / 180);
+  const double slope = 6 * sine / (3 - sine), start = 6 * p.cohesion * std::cos(phi) / (3 - sine);
+  const double d = 2 * contraction / (1 - contraction), k = material.bulk_modulus(), g = material.shear_modulus();
+  const double flow = 3 * g / (3 * g * (1 + d / 3) + slope * k * d);
+  const double at_yield = (slope * confining + start) / (3 * g);
+
+  Stress stress{-confining, -confining, -confining, 0, 0, 0};
+  const double axial = 2 * at_yield; // twice as far as to the yield surface, in steps that meet it
+  const int steps = 1000;
+  for (int step = 0; step < steps; ++step)
+    stress = material.update(stress, {0.5 * axial / steps, 0.5 * axial / steps, -axial / steps, 0, 0, 0}).stress;
+  const double pressure = confining + k * d * flow * (axial - at_yield);
+  CHECK(pressure < 0.9 * confining);
+  CHECK(-mean_stress(stress) == Approx(pressure).epsilon(1e-8));
+  CHECK(stress[0] - stress[2] == Approx(slope * pressure + start).epsilon(1e-8));
 }
