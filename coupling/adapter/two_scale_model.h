@@ -44,7 +44,11 @@ public:
 
   StableSteps stable_steps() const { return model_.stable_steps(); }
 
-  Model &parts() { return model_; } ///< for further parts
+  /// @name For further parts
+  /// @{
+  Model &parts() { return model_; }
+  GrainsMover *grains_mover() { return grains_; } ///< none without grains
+  /// @}
   const Model &parts() const { return model_; }
 
 private:

@@ -28,12 +28,8 @@ void PenetrationParameters::declare(ParameterFile &file)
       "Intruder", "kind", intruder.kind,
       "plate: a blade, edge down; cone: round, with a pointed or a flat tip; pile: from the box's front to its back",
       {{"plate", IntruderKind::plate}, {"cone", IntruderKind::cone}, {"pile", IntruderKind::pile}});
-  file.add("Intruder", "width", intruder.width, "along x; a cone's diameter [m]", Range::positive());
   file.add("Intruder", "breadth", intruder.breadth, "of a plate, along y [m]", Range::positive());
-  file.add("Intruder", "tip angle", intruder.tip_angle, "full angle of the tip; 180: flat [degrees]",
-           Range::between(10, 180));
-  file.add("Intruder", "facets", intruder.n_facets, "around a cone", Range::between(6, 1000));
-  file.add("Intruder", "triangle size", intruder.triangle_size, "at most [m]", Range::positive());
+  intruder.declare(file, "Intruder");
   file.add("Intruder", "friction", intruder_friction, "Coulomb's coefficient between grains and intruder",
            Range::non_negative());
   sand.declare(file);

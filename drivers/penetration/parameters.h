@@ -5,7 +5,7 @@
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "drivers/common/sand_parameters.h"
-#include "drivers/penetration/intruder.h"
+#include "drivers/common/intruder.h"
 
 #include <cstdint>
 

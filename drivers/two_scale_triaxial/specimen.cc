@@ -3,6 +3,7 @@
 #include "dem/core/error.h"
 #include "dem/measure/contact_list.h"
 #include "dem/measure/coordination.h"
+#include "drivers/common/bearable_stress.h"
 #include "drivers/common/run/visit_models.h"
 #include "fe_dealii/equilibrium/static_equilibrium.h"
 #include "fe_dealii/stable_step.h"
@@ -10,34 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <variant>
 
 namespace bergamo::driver
 {
 namespace
 {
-
-/// A stress with as much of its deviator as a law bears: a small packing's may be beyond what a continuum has for it.
-Vec3 bearable(const fe::Material &material, const Vec3 &stress)
-{
-  const auto *law = std::get_if<fe::MohrCoulomb>(&material);
-  const Vec3 mean = Vec3::Constant(stress.mean());
-  const auto with = [&](const double share) -> Vec3 { return mean + share * (stress - mean); };
-  const auto is_borne = [&](const double share)
-  {
-    const Vec3 s = with(share);
-    return !law || law->yield_function({s[0], s[1], s[2], 0., 0., 0.}) <= 0.;
-  };
-  if (is_borne(1.))
-    return stress;
-  double borne = 0., too_much = 1.;
-  for (int halving = 0; halving < 30; ++halving)
-  {
-    const double middle = 0.5 * (borne + too_much);
-    (is_borne(middle) ? borne : too_much) = middle;
-  }
-  return with(borne);
-}
 
 /// Each layer with its own stress; with none given, all under the packing's pressure.
 fe::InitialStress initial_stress(const TriaxialParameters &parameters, const LoadingStart &start)

@@ -1,5 +1,5 @@
 #include "dem/state/surface.h"
-#include "drivers/penetration/intruder.h"
+#include "drivers/common/intruder.h"
 
 #include <catch2/catch.hpp>
 

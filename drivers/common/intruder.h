@@ -1,7 +1,10 @@
 #pragma once
 
 #include "dem/measure/part_loads.h"
+#include "drivers/common/parameter_file.h"
 #include "fe_dealii/conditions/rigid_body.h"
+
+#include <string>
 
 namespace bergamo::driver
 {
@@ -25,6 +28,9 @@ struct IntruderShape
   double tip_angle = 180.;     ///< full angle of the tip, 180: flat [degrees]
   int n_facets = 32;           ///< around a cone
   double triangle_size = 2e-3; ///< at most [m]
+
+  /// Binds all but kind and breadth to a section, "Intruder" or "Pile".
+  void declare(ParameterFile &file, const std::string &section);
 
   double tip_height() const; ///< [m]
   double tip_area() const;   ///< seen from below [m²]

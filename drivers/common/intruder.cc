@@ -1,4 +1,4 @@
-#include "drivers/penetration/intruder.h"
+#include "drivers/common/intruder.h"
 
 #include "dem/geometry/merge_nodes.h"
 
@@ -112,6 +112,14 @@ Rows along(const IntruderShape &s, const double height, const double overhang)
 }
 
 } // namespace
+
+void IntruderShape::declare(ParameterFile &file, const std::string &section)
+{
+  file.add(section, "width", width, "along x; a cone's diameter [m]", Range::positive());
+  file.add(section, "tip angle", tip_angle, "full angle of the tip; 180: flat [degrees]", Range::between(10, 180));
+  file.add(section, "facets", n_facets, "around a cone", Range::between(6, 1000));
+  file.add(section, "triangle size", triangle_size, "at most [m]", Range::positive());
+}
 
 double IntruderShape::tip_height() const
 {

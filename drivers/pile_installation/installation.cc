@@ -1,0 +1,184 @@
+#include "drivers/pile_installation/installation.h"
+
+#include "coupling/adapter/surface_contact.h"
+#include "dem/core/error.h"
+#include "drivers/common/run/visit_models.h"
+#include "drivers/pile_installation/ground_body.h"
+#include "fe_dealii/equilibrium/static_equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace bergamo::driver
+{
+namespace
+{
+
+std::optional<GroundPlan> plan_of(const InstallationParameters &p, const InstallationStart &start)
+{
+  return p.is_two_scale() ? std::optional(p.plan(start.sand.level, start.top)) : std::nullopt;
+}
+
+} // namespace
+
+Installation::Installation(const InstallationParameters &p, std::unique_ptr<dem::Simulation> sand,
+                           const InstallationStart &start)
+    : parameters(p), begun(start), plan_(plan_of(p, start)),
+      model(std::move(sand), plan_ ? make_ground(p, start, *plan_) : nullptr, p.simulation.time_step)
+{
+  if (model.body())
+  {
+    hold_elements();
+    join();
+    body_steps.emplace(*model.body());
+    require_below(body_steps->stable().time_step, p.simulation.time_step);
+    displacement_at_start.assign(model.body()->displacement().size(), 0.);
+  }
+  add_pile();
+}
+
+void Installation::hold_elements()
+{
+  fe::ExplicitBody &body = *model.body();
+  for (const unsigned int face : {0u, 1u, 2u, 3u})
+    body.prescribe_velocity(face, face / 2);
+  floor = body.prescribe_velocity(4u, 2);
+}
+
+void Installation::join()
+{
+  std::vector<double> weight;
+  for (const auto &x : model.body()->node_position())
+    weight.push_back(plan_->weight_at({x[0], x[1], x[2]}, parameters.weight));
+  model.join(parameters.coupling, weight, begun.reference_by_id);
+}
+
+void Installation::add_pile()
+{
+  Intruder made = parameters.make_pile(begun.sand.height);
+  tip_and_shaft = std::move(made.parts);
+  pile = &model.parts().add(std::make_unique<coupling::RigidMover>(made.body, "pile"));
+  if (model.grains()->surfaces.empty()) // else it was stored with the grains
+  {
+    dem::Surface surface = coupling::surface_of(pile->body());
+    surface.material = pile_material;
+    model.grains()->add_surface(std::move(surface));
+  }
+  model.parts().add(std::make_unique<coupling::SurfaceContact>(*model.grains_mover(), *pile, tip_and_shaft.surface));
+}
+
+void Installation::settle(Progress &progress)
+{
+  if (!model.overlap())
+    return;
+  model.compute_forces();
+  try
+  {
+    fe::find_equilibrium(*model.body());
+  }
+  catch (const RunError &)
+  {
+    progress.warn("the elements do not bear what the grains of the overlap put on them from place to place: they start "
+                  "with the mean stresses of sand at rest, and yield; strengthen the material or take larger elements");
+  }
+  model.overlap()->begin();
+  const auto displacement = std::as_const(*model.body()).displacement();
+  displacement_at_start.assign(displacement.begin(), displacement.end());
+  model.grains()->reset_accounts();
+}
+
+void Installation::compute(const double time)
+{
+  const double step = parameters.simulation.time_step;
+  if (parameters.drive == PileDrive::speed)
+    pile->body().guide().velocity[2] = -parameters.speed_at(time + 0.5 * step);
+  model.compute_forces();
+  if (parameters.drive == PileDrive::force)
+  {
+    applied_force = parameters.force_at(time);
+    pile->body().add_force({0., 0., -applied_force}, pile->body().centre());
+  }
+  if (body_steps)
+    body_steps->require_stable(step);
+  model.kick();
+}
+
+double Installation::head_force() const
+{
+  return parameters.drive == PileDrive::speed ? -pile->body().guide_force()[2] : applied_force;
+}
+
+double Installation::pile_work() const
+{
+  return model.grains()->surfaces[tip_and_shaft.surface].work;
+}
+
+double Installation::bottom_force() const
+{
+  return floor ? -model.body()->reaction(*floor) : model.grains()->walls[bottom_wall].force[2];
+}
+
+double Installation::largest_grain_motion() const
+{
+  double largest = 0.;
+  const dem::Particles &p = sand().particles;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    largest = std::max(largest, (p.position[i] - begun.place_by_id[p.id[i]]).norm());
+  return largest;
+}
+
+double Installation::largest_element_motion() const
+{
+  double largest = 0.;
+  for (std::size_t dof = 0; dof < displacement_at_start.size(); dof += 3)
+  {
+    double squares = 0.;
+    for (std::size_t d = dof; d < dof + 3; ++d)
+      squares += std::pow(body()->displacement()[d] - displacement_at_start[d], 2);
+    largest = std::max(largest, std::sqrt(squares));
+  }
+  return largest;
+}
+
+double Installation::unbalanced() const
+{
+  const dem::Particles &p = sand().particles;
+  double resultant = 0., contact = 0.;
+  std::size_t n_contacts = 0;
+  for (std::size_t i = 0; i < p.size(); ++i)
+  {
+    Vec3 force = p.force[i] + p.weight[i] * p.mass[i] * sand().parameters().gravity;
+    if (!p.external_force.empty())
+      force += p.external_force[i];
+    resultant += force.norm() / p.weight[i];
+  }
+  for (const auto &touching : {sand().contacts.touching(p), sand().contacts.touching_walls(p)})
+    for (const dem::TouchingContact &c : touching)
+    {
+      contact += std::hypot(c.state.forces.normal, c.state.forces.tangential.norm());
+      ++n_contacts;
+    }
+  return contact > 0. ? (resultant / static_cast<double>(p.size())) / (contact / static_cast<double>(n_contacts)) : 0.;
+}
+
+void Installation::look_at_rotation(Progress &progress)
+{
+  if (model.body())
+    rotation.look(*model.body(), progress);
+}
+
+void Installation::visit(StateVisitor &visit)
+{
+  for (const auto &[name, values] : pile->body().state())
+    visit("pile/" + name, values);
+  rotation.visit(visit);
+  if (!model.body())
+    return;
+  visit_body(visit, *model.body());
+  visit("overlap", *model.overlap());
+  visit_steps(visit, *body_steps);
+  visit("displacement_at_start", displacement_at_start);
+}
+
+} // namespace bergamo::driver
