@@ -29,7 +29,6 @@ double progress(const double tau, const double ramp)
 
 void StrainProgram::validate() const
 {
-
   require(std::abs(isotropic_volumetric_strain) <= 0.1, "isotropic volumetric strain", isotropic_volumetric_strain,
           "in [-0.1, 0.1]: the continuum is a small-strain model");
   require(std::abs(axial_strain) <= 0.1, "axial strain", axial_strain,
@@ -51,7 +50,9 @@ Vec3 StrainProgram::strain(const double time) const
   else if (path == StrainPath::compression)
     volumetric = -volumetric_strain_change;
   const double lateral = 0.5 * (volumetric - axial_strain);
-  return first * Vec3::Constant(isotropic_volumetric_strain / 3.) + second * Vec3(lateral, lateral, axial_strain);
+  Vec3 shear = Vec3::Constant(lateral);
+  shear[static_cast<int>(axis)] = axial_strain;
+  return first * Vec3::Constant(isotropic_volumetric_strain / 3.) + second * shear;
 }
 
 } // namespace bergamo::dem

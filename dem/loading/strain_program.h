@@ -13,14 +13,22 @@ enum class StrainPath
   compression = 3      ///< shear with further volumetric compression
 };
 
-/// Strains of the cube over time: isotropic compression, then shear with the largest compression along one direction.
+enum class StrainAxis
+{
+  x,
+  y,
+  z
+};
+
+/// Strains of the cube over time: isotropic compression, then shear with the largest compression along one axis.
 /// Each phase starts and ends smoothly. Tension positive.
 struct StrainProgram
 {
   double isotropic_volumetric_strain = -0.005;
   double isotropic_time = 0.006; ///< [s]
   StrainPath path = StrainPath::compression;
-  double axial_strain = -0.015;            ///< of the shear phase, along z
+  StrainAxis axis = StrainAxis::z;         ///< of the largest compression in the shear phase
+  double axial_strain = -0.015;            ///< of the shear phase, along the axis
   double volumetric_strain_change = 0.005; ///< size of the change in the shear phase; 0 is taken for path 2
   double shear_time = 0.012;               ///< [s]
   double ramp = 0.1;                       ///< share of a phase in which it speeds up, and again slows down

@@ -24,7 +24,9 @@ void declare_strain_program(ParameterFile &file, dem::StrainProgram &program)
            {{"unloading", dem::StrainPath::unloading},
             {"constant volume", dem::StrainPath::constant_volume},
             {"compression", dem::StrainPath::compression}});
-  file.add("Loading", "axial strain", program.axial_strain, "along z in the shear phase");
+  file.add("Loading", "axis", program.axis, "of the largest compression in the shear phase",
+           {{"x", dem::StrainAxis::x}, {"y", dem::StrainAxis::y}, {"z", dem::StrainAxis::z}});
+  file.add("Loading", "axial strain", program.axial_strain, "along the axis in the shear phase");
   file.add("Loading", "volumetric strain change", program.volumetric_strain_change,
            "size of the change in the shear phase; without meaning at constant volume", Range::non_negative());
   file.add("Loading", "shear time", program.shear_time, "[s]", Range::positive());

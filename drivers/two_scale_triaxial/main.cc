@@ -58,7 +58,7 @@ int TriaxialRun::go()
   run.open();
   if ((packing && !pack()) || !load())
     return run.stop();
-  write_profile(run.folder().file("stress_profile.csv"), now.profile);
+  specimen->write_tables(run.folder().path(), now.profile);
   return run.finish(summary(), {"two_scale_triaxial/plot.py", "energy.py", "picture.py"});
 }
 

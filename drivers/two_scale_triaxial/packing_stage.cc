@@ -16,12 +16,12 @@ namespace bergamo::driver
 namespace
 {
 
-/// Takes out the grains whose centre lies below a height [m], and the floor.
-void remove_below(dem::Simulation &grains, const double height)
+/// Takes out the grains whose centre lies below the overlap, and the floor.
+void remove_below(dem::Simulation &grains, const Interface &interface)
 {
   std::vector<std::int32_t> below;
   for (std::size_t i = 0; i < grains.particles.size(); ++i)
-    if (grains.particles.position[i][2] < height)
+    if (const Vec3 &centre = grains.particles.position[i]; centre[2] < interface.bottom(centre[0]))
       below.push_back(static_cast<std::int32_t>(i));
   grains.remove_wall(4);
   grains.remove(below);
@@ -87,14 +87,14 @@ LoadingStart end_packing(dem::Simulation &grains, const TriaxialParameters &para
   start.box = dem::box_between(grains.walls);
   start.solid_fraction = dem::solid_fraction(grains.particles, start.box.volume());
   start.coordination_number = dem::mean_coordination(grains.contacts, grains.particles.size());
-  start.stress_by_layer = stress_by_layer(grains, start.box, parameters.elements_per_edge);
+  start.stress_by_layer = stress_by_layer(grains, start.box, parameters.layers.per_edge);
   for (dem::PlaneWall &wall : grains.walls)
     wall.velocity.setZero();
   grains.rest();
   grains.change(parameters.simulation);
   start.reference_by_id = dem::positions_by_id(grains.particles);
   if (parameters.kind == ModelKind::two_scale)
-    remove_below(grains, parameters.overlap_bottom(start.box));
+    remove_below(grains, parameters.interface(start.box));
   return start;
 }
 

@@ -24,12 +24,17 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Model", "kind", kind, "which models share the cube",
            {{"two-scale", ModelKind::two_scale}, {"grains", ModelKind::grains}, {"continuum", ModelKind::continuum}});
   file.add("Model", "edge", edge, "edge of the cube [m]", Range::positive());
-  file.add("Model", "elements per edge", elements_per_edge, "hexahedra along an edge of the cube",
+  file.add("Model", "elements per edge", layers.per_edge, "hexahedra along an edge of the cube",
            Range::between(2, 200));
-  file.add("Model", "continuum layers", continuum_layers, "layers of elements, from the bottom",
+  file.add("Model", "continuum layers", layers.continuum, "layers of elements, from the bottom",
            Range::between(1, 200));
-  file.add("Model", "overlap layers", overlap_layers, "of these, the layers shared with the grains",
+  file.add("Model", "overlap layers", layers.overlap, "of these, the layers shared with the grains",
            Range::between(1, 200));
+  file.add("Model", "interface", interface_shape, "how the continuum's upper face goes along x",
+           {{"flat", InterfaceShape::flat},
+            {"inclined", InterfaceShape::inclined},
+            {"stepped", InterfaceShape::stepped},
+            {"curved", InterfaceShape::curved}});
   file.add("Model", "weight", weight, "how the grains' weights grow through the overlap",
            {{"linear", coupling::WeightShape::linear}, {"smooth", coupling::WeightShape::smooth}});
   file.add("Model", "bending elements", bending_elements,
@@ -74,12 +79,7 @@ void TriaxialParameters::validate() const
   loading_steps();
   if (kind == ModelKind::two_scale)
   {
-    if (continuum_layers >= elements_per_edge)
-      reject("Model/continuum layers is ", continuum_layers, " of ", elements_per_edge,
-             " layers (Model/elements per edge): at least one layer must be left to the grains alone");
-    if (overlap_layers >= continuum_layers)
-      reject("Model/overlap layers is ", overlap_layers, ", as thick as the continuum of ", continuum_layers,
-             " layers or thicker: at least one layer must be left to the continuum alone");
+    layers.validate(interface_shape);
     if (element_size() < 2. * distribution.mean_half_axes.mean())
       reject("the elements are smaller than a grain: edge over elements per edge is ", element_size(),
              " m; choose fewer Model/elements per edge or a larger Model/edge");

@@ -8,6 +8,7 @@
 #include "drivers/common/continuum_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
+#include "drivers/two_scale_triaxial/interface.h"
 
 #include <cstdint>
 
@@ -28,9 +29,8 @@ struct TriaxialParameters
 
   ModelKind kind = ModelKind::two_scale;
   double edge = 0.01; ///< of the cube [m]
-  unsigned int elements_per_edge = 5;
-  unsigned int continuum_layers = 3; ///< of elements, from the bottom
-  unsigned int overlap_layers = 1;   ///< of these, shared with the grains
+  ElementLayers layers;
+  InterfaceShape interface_shape = InterfaceShape::flat;
   coupling::WeightShape weight = coupling::WeightShape::linear;
   bool bending_elements = false; ///< see fe::Hourglass
 
@@ -72,17 +72,8 @@ struct TriaxialParameters
   bool needs_mpi() const { return kind == ModelKind::two_scale; } ///< to find the equilibrium it starts from
   bool has_grains() const { return kind != ModelKind::continuum; }
   bool has_continuum() const { return kind != ModelKind::grains; }
-  double element_size() const { return edge / elements_per_edge; } ///< nominal [m]
-
-  /// Heights of the overlap in a cube [m].
-  double overlap_top(const dem::Box &cube) const
-  {
-    return cube.low[2] + cube.edges()[2] * continuum_layers / elements_per_edge;
-  }
-  double overlap_bottom(const dem::Box &cube) const
-  {
-    return cube.low[2] + cube.edges()[2] * (continuum_layers - overlap_layers) / elements_per_edge;
-  }
+  double element_size() const { return edge / layers.per_edge; } ///< nominal [m]
+  Interface interface(const dem::Box &cube) const { return {interface_shape, layers, cube}; }
 };
 
 } // namespace bergamo::driver

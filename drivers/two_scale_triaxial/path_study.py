@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Whether two scales give the stresses of grains alone, on the three strain paths of Wellmann's figure 6.4b.
+"""Whether two scales give the stresses of grains alone, on the three strain paths of Wellmann's figure 6.4b and in an
+oedometer, all after an isotropic compression.
 
-For every packing, grains alone take the three paths, and a Mohr-Coulomb continuum whose stiffness grows with the pressure
-is fitted to their stresses on all of them (least squares). Then the continuum alone and the two-scale cube with the same
+For every packing, grains alone take the paths, and a Mohr-Coulomb continuum whose stiffness grows with the pressure is
+fitted to their stresses on all of them (least squares, then least sixth powers: nearly the least largest error). Then the continuum alone and the two-scale cube with the same
 grains take the same paths. The error of a principal stress is its largest difference from grains alone over the path, over
 the largest stress of grains alone: that of the continuum alone is the law's.
 
@@ -21,7 +22,11 @@ import numpy as np
 from scipy.optimize import least_squares
 from study_runs import STRESSES, argument_parser, errors, run, run_data
 
-PATHS = {"unloading": "path 1", "constant volume": "path 2", "compression": "path 3"}
+PATHS = {"unloading": {"Loading/path": "unloading"}, "constant volume": {"Loading/path": "constant volume"},
+         "compression": {"Loading/path": "compression"},
+         "oedometer": {"Loading/path": "compression", "Loading/axial strain": -0.005,
+                       "Loading/volumetric strain change": 0.005}}
+TITLES = ["path 1: unloading", "path 2: constant volume", "path 3: compression", "oedometer"]
 MODELS = {"continuum alone": {"Model/kind": "continuum"}, "lumped projection": {},
           "consistent projection": {"Coupling/projection": "consistent"}}
 
@@ -51,7 +56,7 @@ def fit(program, common, alone):
             found = []
             for path, history in alone.items():
                 target = Path(folder) / path.replace(" ", "-")
-                if not run(program, target, {**settings, "Loading/path": path}):
+                if not run(program, target, {**settings, **PATHS[path]}):
                     return np.full(sum(3 * len(h["time_s"]) for h in alone.values()), 1.)
                 mine = run_data.read_history(target)
                 found += [(mine[name] - history[name]) / largest[path] for name in STRESSES]
@@ -59,8 +64,13 @@ def fit(program, common, alone):
 
     start = [np.log(start / low) / np.log(high / low) if "modulus" in name else (start - low) / (high - low)
              for name, start, low, high in UNKNOWNS]
-    found = least_squares(residual, start, bounds=(0, 1), diff_step=0.02, xtol=1e-3, ftol=1e-3, max_nfev=12)
-    return settings_of(found.x)
+    options = {"bounds": (0, 1), "xtol": 1e-3, "ftol": 1e-3, "max_nfev": 15}
+    nearest = least_squares(residual, start, diff_step=0.02, **options).x
+    return settings_of(least_squares(lambda x: residual(x)**3, np.clip(nearest, 0.01, 0.99), diff_step=0.01, **options).x)
+
+
+def first_stage(history):
+    return {name: values[history["stage"] == 1] for name, values in history.items()}
 
 
 def measure(program, folder, seeds, paths, common):
@@ -71,7 +81,7 @@ def measure(program, folder, seeds, paths, common):
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         jobs = [(seed, path) for seed in seeds for path in paths]
         list(pool.map(lambda job: run(program, folder_of("grains alone", job[1], job[0]),
-                                      {**common, "Model/kind": "grains", "Packing/seed": job[0], "Loading/path": job[1]}),
+                                      {**common, "Model/kind": "grains", "Packing/seed": job[0], **PATHS[job[1]]}),
                       jobs))
         for seed in seeds:
             kept = folder / f"continuum-{seed}.json"
@@ -82,10 +92,13 @@ def measure(program, folder, seeds, paths, common):
         jobs = [(model, path, seed) for seed in seeds for path in paths for model in MODELS]
         done = list(pool.map(lambda job: run(program, folder_of(*job),
                                              {**common, **continuum[job[2]], **MODELS[job[0]], "Packing/seed": job[2],
-                                              "Loading/path": job[1]}), jobs))
+                                              **PATHS[job[1]]}), jobs))
     for (model, path, seed), is_done in zip(jobs, done):
-        found = errors(read(model, path, seed), read("grains alone", path, seed), False) if is_done else None
-        rows.setdefault((model, path), []).append(found)
+        mine, alone = (read(name, path, seed) if is_done else None for name in (model, "grains alone"))
+        rows.setdefault((model, path), []).append(errors(mine, alone, False) if is_done else None)
+        if path == paths[0]:  # all of them begin with it
+            rows.setdefault((model, "isotropic compression"), []).append(
+                errors(first_stage(mine), first_stage(alone), False) if is_done else None)
     for path in paths:  # what another packing of the same grains would give
         first = read("grains alone", path, seeds[0])
         rows["grains of another packing", path] = [errors(read("grains alone", path, seed), first, False)
@@ -108,7 +121,7 @@ def write_table(rows, path):
 
 
 def draw(folder, seed, paths):
-    """Stresses of all models on the three paths, as in Wellmann's figure 6.5."""
+    """Stresses of all models on the paths, as in Wellmann's figure 6.5."""
     figure, all_axes = run_data.new_panels(1, len(paths))
     for axes, path in zip(all_axes.ravel(), paths):
         for model, style in [("grains alone", "-"), *zip(MODELS, (":", "--", "-."))]:
@@ -116,7 +129,7 @@ def draw(folder, seed, paths):
             for k, name in enumerate(STRESSES):
                 axes.plot(1e3 * history["time_s"], 1e-6 * history[name], style, color=run_data.COLOURS[k],
                           label=f"σ{k + 1}, {model}")
-        axes.set_title(f"{PATHS[path]}: {path}", fontsize="medium")
+        axes.set_title(TITLES[list(PATHS).index(path)], fontsize="medium")
         axes.set_xlabel("time in ms")
     all_axes.ravel()[0].set_ylabel("principal stress in MPa")
     all_axes.ravel()[0].legend(fontsize="x-small")
@@ -125,6 +138,7 @@ def draw(folder, seed, paths):
 
 def main():
     parser = argument_parser(__doc__)
+    parser.add_argument("--seeds", type=int, default=1, help="packings (default 1)")
     parser.add_argument("--paths", nargs="+", choices=PATHS, default=list(PATHS),
                         help="these alone; the continuum is fitted to them")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")

@@ -3,8 +3,9 @@
 #include "dem/core/error.h"
 #include "dem/measure/contact_list.h"
 #include "dem/measure/coordination.h"
-#include "drivers/common/bearable_stress.h"
 #include "drivers/common/run/visit_models.h"
+#include "drivers/two_scale_triaxial/contact_forces.h"
+#include "drivers/two_scale_triaxial/continuum_body.h"
 #include "fe_dealii/equilibrium/static_equilibrium.h"
 #include "fe_dealii/stable_step.h"
 
@@ -16,48 +17,6 @@ namespace bergamo::driver
 {
 namespace
 {
-
-/// Each layer with its own stress; with none given, all under the packing's pressure.
-fe::InitialStress initial_stress(const TriaxialParameters &parameters, const LoadingStart &start)
-{
-  if (start.stress_by_layer.empty())
-    return fe::uniform_pressure(parameters.compression.pressure);
-  std::vector<Vec3> layers;
-  for (const Vec3 &stress : start.stress_by_layer)
-    layers.push_back(bearable(parameters.continuum.material(), stress));
-  return [layers, low = start.box.low[2],
-          height = start.box.edges()[2] / static_cast<double>(start.stress_by_layer.size())](const auto &place)
-  {
-    const auto layer = static_cast<std::ptrdiff_t>(std::floor((place[2] - low) / height));
-    const Vec3 &stress = layers[std::clamp<std::ptrdiff_t>(layer, 0, std::ssize(layers) - 1)];
-    return fe::Stress{stress[0], stress[1], stress[2], 0., 0., 0.};
-  };
-}
-
-/// The continuum's part of the cube: it starts with the stresses of the grains whose place it takes, so that the
-/// overlap and the walls start in equilibrium.
-std::unique_ptr<fe::ExplicitBody> make_body(const TriaxialParameters &parameters, const LoadingStart &start)
-{
-  if (!parameters.has_continuum())
-    return nullptr;
-  const unsigned int n = parameters.elements_per_edge;
-  const unsigned int n_layers = parameters.kind == ModelKind::continuum ? n : parameters.continuum_layers;
-  fe::BoxMeshParameters mesh;
-  for (int d = 0; d < 3; ++d)
-  {
-    mesh.minimum[d] = start.box.low[d];
-    mesh.maximum[d] = start.box.high[d];
-  }
-  mesh.maximum[2] = start.box.low[2] + start.box.edges()[2] * n_layers / n;
-  mesh.subdivisions = {n, n, n_layers};
-
-  fe::ExplicitBodyParameters body;
-  body.material = parameters.continuum.material();
-  body.hourglass = parameters.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
-  body.damping = parameters.continuum_damping;
-  body.initial_stress = initial_stress(parameters, start);
-  return std::make_unique<fe::ExplicitBody>(fe::make_box_body(mesh, body));
-}
 
 /// @param limit stable step of the continuum [s]; @param state the body is in
 void require_below(const double limit, const double step, const std::string &state)
@@ -77,12 +36,12 @@ void require_stable_continuum(const TriaxialParameters &parameters)
   const double shrinkage = parameters.has_grains() ? std::min(1., parameters.expected_solid_fraction / densest) : 1.;
   LoadingStart least;
   least.box = {Vec3::Zero(), Vec3::Constant(parameters.edge * std::cbrt(shrinkage))};
-  require_below(fe::stable_step(*make_body(parameters, least)).time_step, parameters.simulation.time_step,
+  require_below(fe::stable_step(*make_continuum(parameters, least)).time_step, parameters.simulation.time_step,
                 parameters.has_grains() ? " if the grains pack as densely as they can" : "");
 }
 
 Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start)
-    : model(std::move(grains), make_body(p, start), p.simulation.time_step), parameters(p), cube(start.box),
+    : model(std::move(grains), make_continuum(p, start), p.simulation.time_step), parameters(p), cube(start.box),
       edges(cube.edges()), step(p.simulation.time_step)
 {
   const bool is_joined = parameters.kind == ModelKind::two_scale;
@@ -108,10 +67,10 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
 
 void Specimen::join(const std::vector<Vec3> &reference_by_id)
 {
-  const double top = parameters.overlap_top(cube), bottom = parameters.overlap_bottom(cube);
+  const Interface interface = parameters.interface(cube);
   std::vector<double> weight;
   for (const auto &x : model.body()->node_position())
-    weight.push_back(coupling::weight_at(parameters.weight, (x[2] - bottom) / (top - bottom)));
+    weight.push_back(interface.weight_at({x[0], x[1], x[2]}, parameters.weight));
   model.join(parameters.coupling, weight, reference_by_id);
 }
 
@@ -166,7 +125,7 @@ SpecimenSample Specimen::measure(const double time) const
                         .energy = coupling::energy_of(model)};
   sample.coupling_difference = model.penalty_state().largest_difference;
   sample.profile = coupling::stress_profile(model, {cube.low, cube.low + edges.cwiseProduct(Vec3::Ones() + strain)},
-                                            parameters.elements_per_edge);
+                                            parameters.layers.per_edge);
   if (!grains)
     return sample;
   sample.coordination_number = dem::mean_coordination(grains->contacts, grains->particles.size());
@@ -213,6 +172,13 @@ void Specimen::add_figures(Summary &summary) const
   summary.set("cube_edges_m", std::vector<double>{edges[0], edges[1], edges[2]}, "m");
   if (model.body())
     summary.set("greatest_rotation_degrees", rotation.greatest(), "degrees");
+}
+
+void Specimen::write_tables(const std::filesystem::path &folder, const std::vector<coupling::SlabStress> &profile) const
+{
+  write_profile(folder / "stress_profile.csv", profile);
+  if (model.grains())
+    write_contact_forces(folder / "contact_forces.csv", *model.grains(), parameters.interface(cube));
 }
 
 void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, LoadingStart &start,

@@ -48,6 +48,9 @@ public:
   /// Warns once where strains of the continuum are too small a description for its rotation.
   void look_at_rotation(Progress &progress);
 
+  /// Stresses by height and, with grains, their forces, as stress_profile.csv and contact_forces.csv in a folder.
+  void write_tables(const std::filesystem::path &folder, const std::vector<coupling::SlabStress> &profile) const;
+
   void add_figures(Summary &summary) const; ///< edges of the cube, and the greatest rotation of a continuum
 
   coupling::TwoScaleModel model;

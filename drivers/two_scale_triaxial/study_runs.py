@@ -35,9 +35,8 @@ def errors(history, reference, from_start):
 
 
 def argument_parser(description):
-    """What every study asks for: the driver's program, a folder for the runs, and how many packings."""
+    """What every study asks for: the driver's program, and a folder for the runs."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="the driver two_scale_triaxial")
     parser.add_argument("folder", type=Path, help="of the runs")
-    parser.add_argument("--seeds", type=int, default=1, help="packings (default 1)")
     return parser

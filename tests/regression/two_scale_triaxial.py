@@ -6,6 +6,7 @@ Usage: two_scale_triaxial.py PROGRAM [TOPIC]
 
 import csv
 import json
+import math
 import os
 import re
 import shlex
@@ -60,6 +61,31 @@ def history(folder):
 
 
 class Results(Case):
+    def test_stepped_interface(self):
+        """The overlap goes down by a layer behind the middle: stresses are those over a flat one, and even."""
+        cube = ["--set", "Model/elements per edge=5", "--set", "Model/continuum layers=4", "--set", "Model/overlap layers=2",
+                "--set", "Coupling/penalty=1e14", "--set", "Loading/time step=6e-8"]
+        final = {}
+        for shape in ("flat", "stepped"):
+            out = self.tmp / shape
+            result = self.run_driver(out, *cube, "--set", f"Model/interface={shape}")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            summary = json.loads((out / "summary.json").read_text())
+            self.assertLess(summary["energy_residual"], 1e-5)
+            self.assertLess(summary["time_step_s"], summary["stable_time_step_s"])
+            final[shape] = history(out)[-1]
+            with open(out / "contact_forces.csv", newline="") as file:
+                forces = list(csv.DictReader(file))
+            self.assertGreater(len(forces), 20)
+            for row in forces:
+                self.assertGreater(float(row["force_N"]), 0)
+                # the direction's cosines
+                self.assertAlmostEqual(sum(math.cos(math.radians(float(row[f"angle_to_{axis}_deg"])))**2 for axis in "xyz"), 1)
+        for direction in "123":
+            flat, stepped = (final[shape][f"stress_{direction}_Pa"] for shape in ("flat", "stepped"))
+            # two small cubes of some hundred grains; without the joint at the side of the step it would be a half
+            self.assertLess(abs(stepped / flat - 1), 0.25)
+
     def test_models(self):
         """Each model runs to its end; what it writes is whole and makes sense."""
         final = {}

@@ -29,7 +29,7 @@ TEST_CASE("parameters of the library get what the file says")
   for (const char *assignment :
        {"Packing/pressure=2", "Packing/largest strain rate=3", "Packing/pressure tolerance=0.4",
         "Packing/force tolerance=0.5", "Packing/longest time=6", "Loading/isotropic volumetric strain=-0.1",
-        "Loading/isotropic time=2", "Loading/path=unloading", "Loading/axial strain=-0.3",
+        "Loading/isotropic time=2", "Loading/path=unloading", "Loading/axis=x", "Loading/axial strain=-0.3",
         "Loading/volumetric strain change=0.4", "Loading/shear time=5", "Loading/ramp=0.25", "Coupling/penalty=2",
         "Coupling/projection=consistent", "Coupling/least weight=0.5", "Output/samples=2", "Output/pictures=3",
         "Output/snapshot interval=4"})
@@ -43,6 +43,7 @@ TEST_CASE("parameters of the library get what the file says")
   CHECK(program.isotropic_volumetric_strain == -0.1);
   CHECK(program.isotropic_time == 2.);
   CHECK(program.path == dem::StrainPath::unloading);
+  CHECK(program.axis == dem::StrainAxis::x);
   CHECK(program.axial_strain == -0.3);
   CHECK(program.volumetric_strain_change == 0.4);
   CHECK(program.shear_time == 5.);
