@@ -19,8 +19,11 @@ FILES = ("two_scale_triaxial.prm", "nearly_elastic.prm")
 
 # By group: what is varied from the defaults and nearly_elastic.prm, which has an overlap of two layers, 4.7 grains.
 VARIANTS = {
-    "thickness": {f"{layers} layers": {"Model/overlap layers": layers, "Model/continuum layers": max(3, layers + 1)}
-                  for layers in (1, 2, 3)},
+    # by elements an edge, layers of elements, layers of overlap; a grain's mean diameter is 0.85 mm
+    "thickness": {f"{n / per_edge * 10 / 0.85:.1f} grains": {"Model/elements per edge": per_edge, "Model/continuum layers": layers,
+                                                             "Model/overlap layers": n, "Loading/time step": step}
+                  for per_edge, layers, n, step in ((8, 4, 1, 6e-8), (5, 3, 1, 1e-7), (4, 2, 1, 1e-7), (5, 3, 2, 1.2e-7),
+                                                    (4, 3, 2, 1.2e-7), (5, 4, 3, 1.2e-7), (10, 9, 8, 8e-8))},
     "elements": {f"{n} elements an edge": {"Model/elements per edge": n, "Model/continuum layers": layers,
                                            "Model/overlap layers": overlap}
                  for n, layers, overlap in ((4, 3, 2), (5, 3, 2), (7, 4, 3))},

@@ -282,6 +282,34 @@ TEST_CASE("pressed grains of which the lower part became a continuum stay where 
   CHECK(coupling::unevenness(profile) < 0.05);
 }
 
+TEST_CASE("in a column under its own weight the pressure grows through the overlap as through grains alone")
+{
+  // Weights are shared as stresses are: w of the grains', 1 - w of the continuum's. At rest the mean normal stress of a
+  // slab is the force above plus the weight of what lies over its middle; here the weight of all is half of the
+  // pressure.
+  const double gravity = 0.5 * test::confining_pressure / (1650. * 0.006);
+  TwoScaleModel model = make_pressed_model({}, gravity);
+  run(model, 8000); // 1.2 ms, some twenty times the slowest wave's period
+  model.compute_forces();
+  const dem::Box box = box_of(model);
+  const std::vector<coupling::SlabStress> profile = coupling::stress_profile(model, box, 3); // a layer of elements each
+  const double area = box.volume() / box.edges()[2], above = -model.grains()->walls[4].force[2] / area;
+
+  std::vector<double> weight(profile.size(), 0.); // of each slab over the area [Pa]
+  const double per_height = fe::density(model.body()->material()) * gravity;
+  for (std::size_t k = 0; k < profile.size(); ++k)
+    weight[k] = per_height * (profile[k].high - profile[k].low);
+  double over = 0.;
+  for (std::size_t k = profile.size(); k-- > 0;)
+  {
+    const double expected = above - over - 0.5 * weight[k];
+    CAPTURE(k, above, profile[k].grains[2], profile[k].continuum[2]);
+    CHECK(profile[k].total()[2] == Approx(expected).epsilon(0.015));
+    over += weight[k];
+  }
+  CHECK(over > 0.4 * std::abs(above)); // it is felt
+}
+
 TEST_CASE("under pressure an overlap keeps momentum and closes its account with the work of the transfer")
 {
   TwoScaleModel model = make_pressed_model({});

@@ -15,6 +15,21 @@ namespace bergamo::test
 
 using coupling::TwoScaleModel;
 
+namespace
+{
+
+/// Of the grains in the upper third of a box, mass over volume [kg/m3].
+double bulk_density(const dem::Simulation &grains, const dem::Box &box)
+{
+  double mass = 0.;
+  for (std::size_t i = 0; i < grains.particles.size(); ++i)
+    if (grains.particles.position[i][2] > box.high[2] - box.edges()[2] / 3.)
+      mass += grains.particles.mass[i];
+  return 3. * mass / box.volume();
+}
+
+} // namespace
+
 std::unique_ptr<dem::Simulation> make_pressed_packing()
 {
   std::mt19937_64 generator(11);
@@ -44,7 +59,7 @@ std::unique_ptr<dem::Simulation> make_pressed_packing()
   return packing;
 }
 
-TwoScaleModel make_pressed_model(const coupling::CouplingParameters &join)
+TwoScaleModel make_pressed_model(const coupling::CouplingParameters &join, const double gravity)
 {
   auto grains = make_pressed_packing();
   const dem::Box box = dem::box_between(grains->walls);
@@ -53,6 +68,9 @@ TwoScaleModel make_pressed_model(const coupling::CouplingParameters &join)
   for (std::size_t i = 0; i < grains->particles.size(); ++i)
     if (grains->particles.position[i][2] < box.low[2] + box.edges()[2] / 3.)
       below.push_back(static_cast<std::int32_t>(i));
+  dem::SimulationParameters parameters = grains->parameters();
+  parameters.gravity = {0., 0., -gravity};
+  grains->change(parameters);
   grains->remove_wall(4);
   grains->remove(below);
   grains->integrate();
@@ -68,7 +86,10 @@ TwoScaleModel join_below(std::unique_ptr<dem::Simulation> grains, const dem::Box
                mesh);
   fe::ExplicitBodyParameters body;
   body.initial_stress = fe::uniform_pressure(confining_pressure);
-  body.material = fe::MohrCoulomb({.young_modulus = 4e8, .poisson_ratio = 0.1, .cohesion = 1e9});
+  const Vec3 &gravity = grains->parameters().gravity;
+  body.gravity = {gravity[0], gravity[1], gravity[2]};
+  body.material = fe::MohrCoulomb(
+      {.young_modulus = 4e8, .poisson_ratio = 0.1, .cohesion = 1e9, .density = bulk_density(*grains, box)});
   body.damping = 200.;
   const double step = grains->parameters().time_step;
   TwoScaleModel model(std::move(grains), std::make_unique<fe::ExplicitBody>(mesh, body), step);

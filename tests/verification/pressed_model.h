@@ -16,9 +16,11 @@ constexpr double confining_pressure = 1e5; // [Pa]
 std::unique_ptr<dem::Simulation> make_pressed_packing();
 
 /// The packing, of which a continuum takes the place of the lower third and shares the middle one.
-coupling::TwoScaleModel make_pressed_model(const coupling::CouplingParameters &join);
+/// @param gravity from the first step on, downwards [m/s2]
+coupling::TwoScaleModel make_pressed_model(const coupling::CouplingParameters &join, double gravity = 0.);
 
-/// Grains of which those in the lower third of a box are gone, with a continuum on rollers in the lower two thirds.
+/// Grains of which those in the lower third of a box are gone, with a continuum on rollers in the lower two thirds, as
+/// heavy as the grains and under their gravity.
 coupling::TwoScaleModel join_below(std::unique_ptr<dem::Simulation> grains, const dem::Box &box,
                                    const coupling::CouplingParameters &join, const std::vector<Vec3> &reference_by_id);
 
