@@ -134,8 +134,8 @@ fe::MohrCoulombParameters continuum_of(const EnsembleFit &fit, const FitParamete
   }
   continuum.poisson_ratio = within("Poisson's ratio", all.poisson_ratio.mean, 0, 0.49, warnings);
   continuum.friction_angle = all.friction_angle.mean;
-  continuum.dilation_angle =
-      within("the dilation angle", all.dilation_angle.mean, 0, all.friction_angle.mean, warnings);
+  continuum.dilation_angle = within("the dilation angle", all.dilation_angle.mean,
+                                    0.9 * continuum.least_dilation_angle(), all.friction_angle.mean, warnings);
   continuum.cohesion = fit.cohesion;
   continuum.density = parameters.grain_density * all.initial_solid_fraction.mean;
   if (!(continuum.density > 0))

@@ -2,6 +2,7 @@
 
 #include "fe_dealii/material/elastic_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,18 +16,23 @@ void require(const bool holds, const char *name, const double value, const char 
   require_parameter(holds, "Mohr-Coulomb material", name, value, rule);
 }
 
-/// Contraction takes the pressure from a stress beyond the surface; it must take its shear faster, on the plane and on
-/// both edges: plane_, plane_ + right_ and plane_ + left_ of MohrCoulomb are positive.
-bool flow_relaxes(const MohrCoulombParameters &p)
-{
-  const double f = std::sin(p.friction_angle * std::numbers::pi / 180),
-               s = std::sin(p.dilation_angle * std::numbers::pi / 180);
-  const double bulk_over_shear = 2 * (1 + p.poisson_ratio) / (3 * (1 - 2 * p.poisson_ratio));
-  return 1 + f * s / 3 + bulk_over_shear * f * s > 0 &&
-         3 - std::abs(f + s) + f * s / 3 + 4 * bulk_over_shear * f * s > 0;
-}
-
 } // namespace
+
+double MohrCoulombParameters::least_dilation_angle() const
+{
+  // Contraction takes the pressure from a stress beyond the surface; it must take its shear faster, on the plane and on
+  // both edges: plane_, plane_ + right_ and plane_ + left_ of MohrCoulomb are positive.
+  const double f = std::sin(friction_angle * std::numbers::pi / 180);
+  const double bulk_over_shear = 2 * (1 + poisson_ratio) / (3 * (1 - 2 * poisson_ratio));
+  const double on_plane = f * (1. / 3 + bulk_over_shear), on_edge = f * (1. / 3 + 4 * bulk_over_shear);
+  double least = -1.; // of sin ψ
+  if (on_plane > 0)
+    least = std::max(least, -1 / on_plane);
+  if (on_edge > 1)
+    least = std::max(least, (f - 3) / (on_edge - 1));
+  least = std::max(least, -(3 + f) / (1 + on_edge));
+  return std::asin(least) * 180 / std::numbers::pi;
+}
 
 void MohrCoulombParameters::validate() const
 {
@@ -36,9 +42,9 @@ void MohrCoulombParameters::validate() const
   require(poisson_ratio >= 0 && poisson_ratio < 0.5, "poisson_ratio", poisson_ratio, "choose it in [0, 0.5)");
   require(friction_angle >= 0 && friction_angle < 90, "friction_angle [degrees]", friction_angle,
           "choose it in [0, 90)");
-  require(dilation_angle > -90 && dilation_angle <= friction_angle, "dilation_angle [degrees]", dilation_angle,
-          "choose it above -90 and at most the friction angle; above that, flow would create energy");
-  require(flow_relaxes(*this), "dilation_angle [degrees]", dilation_angle,
+  require(dilation_angle <= friction_angle, "dilation_angle [degrees]", dilation_angle,
+          "choose at most the friction angle; above it, flow would create energy");
+  require(dilation_angle > least_dilation_angle(), "dilation_angle [degrees]", dilation_angle,
           "give it less contraction: with this much, no flow brings a stress back to the yield surface");
   require(cohesion >= 0 && std::isfinite(cohesion), "cohesion [Pa]", cohesion, "give zero or a positive number");
   require(cohesion > 0 || friction_angle > 0, "cohesion [Pa]", cohesion,

@@ -14,14 +14,18 @@ namespace bergamo::fe
 /// sec. 5.4) fitted to his grains; the density has no meaningful default for another packing, so set it.
 struct MohrCoulombParameters
 {
-  double young_modulus = 60e6;     ///< [Pa], > 0
-  double poisson_ratio = 0.145;    ///< [-], in [0, 0.5)
-  double friction_angle = 23.15;   ///< [degrees], in [0, 90), at least dilation_angle
-  double dilation_angle = 5.17;    ///< [degrees], at most friction_angle; negative: flow contracts
-  double cohesion = 15;            ///< [Pa], >= 0; not zero together with the friction angle
-  double density = 1600;           ///< of the packing as a whole [kg/m³], > 0
-  double reference_pressure = 0;   ///< p_r at which the Young's modulus holds [Pa]; 0: it holds at any pressure
+  double young_modulus = 60e6;   ///< [Pa], > 0
+  double poisson_ratio = 0.145;  ///< [-], in [0, 0.5)
+  double friction_angle = 23.15; ///< [degrees], in [0, 90), at least dilation_angle
+  double dilation_angle = 5.17;  ///< [degrees], from least_dilation_angle() to friction_angle; negative: flow contracts
+  double cohesion = 15;          ///< [Pa], >= 0; not zero together with the friction angle
+  double density = 1600;         ///< of the packing as a whole [kg/m³], > 0
+  double reference_pressure = 0; ///< p_r at which the Young's modulus holds [Pa]; 0: it holds at any pressure
   double stiffness_exponent = 0.5; ///< m: the modulus grows as (p/p_r)^m [-], in [0, 1]
+
+  /// Dilation angle, negative, from which on contraction takes the pressure from a stress faster than its shear, so
+  /// that no flow brings it back to the yield surface [degrees].
+  double least_dilation_angle() const;
 
   /// Throws ConfigError that names the first value outside its range.
   void validate() const;

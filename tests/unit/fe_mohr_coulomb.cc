@@ -498,6 +498,7 @@ TEST_CASE("Mohr-Coulomb: bad parameters are named", "[fe]")
   rejected([](auto &p) { p.dilation_angle = 30; }, "dilation_angle");
   rejected([](auto &p) { p.dilation_angle = -90; }, "dilation_angle");
   rejected([](auto &p) { p.poisson_ratio = 0.49, p.dilation_angle = -10; }, "less contraction");
+  CHECK(MohrCoulombParameters{}.least_dilation_angle() < -60); // K over G is 1.08
   rejected([](auto &p) { p.cohesion = -1; }, "cohesion");
   rejected([](auto &p) { p.cohesion = p.friction_angle = p.dilation_angle = 0; }, "cohesion");
   rejected([](auto &p) { p.density = 0; }, "density");

@@ -156,9 +156,9 @@ TEST_CASE("values that no continuum may have are moved into its range with a wor
     samples[0].curve.volumetric_strain[i] = 0.5 * samples[0].curve.axial_strain[i];
   const EnsembleFit shrinking = fit_ensemble(samples, {});
   CHECK(shrinking.all.dilation_angle.mean == Approx(std::asin(-1 / 3.) * 180 / 3.141592653589793).epsilon(1e-9));
-  CHECK(shrinking.continuum.dilation_angle == 0);
-  REQUIRE(shrinking.warnings.size() == 1);
-  CHECK_THAT(shrinking.warnings[0], Contains("dilation angle") && Contains("-19.47"));
+  CHECK(shrinking.continuum.dilation_angle == shrinking.all.dilation_angle.mean); // loose sand contracts
+  CHECK(shrinking.warnings.empty());
+  CHECK_NOTHROW(shrinking.continuum.validate());
 
   for (std::size_t i = 0; i < samples[0].curve.size(); ++i) // grows as it shortens: ν = 0.75, D = 0.5
     samples[0].curve.volumetric_strain[i] = -0.5 * samples[0].curve.axial_strain[i];
