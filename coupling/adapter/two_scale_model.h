@@ -29,6 +29,8 @@ public:
   const dem::Simulation *grains() const { return grains_ ? &grains_->simulation() : nullptr; }
   fe::ExplicitBody *body() { return body_ ? &body_->solid() : nullptr; }
   const fe::ExplicitBody *body() const { return body_ ? &body_->solid() : nullptr; }
+  SolidMover *continuum() { return body_; } ///< the body as a mover: how often its forces are computed
+  const SolidMover *continuum() const { return body_; }
   /// Of the grains, by node of the body; empty where they do not share its space.
   std::span<const double> weight_of_grains() const { return body_ ? body_->weights() : std::span<const double>(); }
 

@@ -33,7 +33,7 @@ StableSteps Model::stable_steps() const
 {
   StableSteps steps;
   for (const auto &mover : movers_)
-    steps.movers.push_back({mover->name(), mover->stable_step(), {}});
+    steps.movers.push_back({mover->name(), mover->stable_step(), {}, mover->steps_per_force()});
   for (std::size_t k = 0; k < couplings_.size(); ++k)
   {
     steps.couplings.push_back({couplings_[k]->name(), couplings_[k]->stable_step()});

@@ -37,8 +37,11 @@ public:
   virtual void kick(double time_step) = 0;  ///< towards the step to come [s]
   virtual void drift(double time_step) = 0; ///< that of the kick [s]
 
-  /// Largest stable step of the mover alone at its present state [s].
+  /// Largest stable step of the mover alone at its present state, from one computation of its own forces to the next
+  /// [s].
   virtual double stable_step() = 0;
+  /// Steps from one computation of its own forces to the next: more than 1 where it is subcycled.
+  virtual int steps_per_force() const { return 1; }
   virtual MoverEnergy energy() const = 0;
 
 private:

@@ -109,7 +109,7 @@ bool TriaxialRun::load()
   stage.n_particles = specimen->n_grains();
   stage.compute = [&] { specimen->compute(program.strain(stage.time()), program.strain(stage.time() + dt)); };
   stage.move = [&] { specimen->move(); };
-  return run.advance(stage, {{evenly(parameters.output.n_samples, n_steps), sample},
+  return run.advance(stage, {{evenly(parameters.output.n_samples, n_steps, parameters.cycle()), sample},
                              {every_steps(std::max<std::int64_t>(1, n_steps / 10)), look_at_step},
                              {evenly(parameters.output.n_pictures - 1, n_steps), draw}});
 }

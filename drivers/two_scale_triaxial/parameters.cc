@@ -61,6 +61,10 @@ void TriaxialParameters::declare(ParameterFile &file)
   continuum.declare(file);
   file.add("Continuum", "damping", continuum_damping, "mass-proportional [1/s]", Range::non_negative());
 
+  file.add("Continuum", "steps per force", steps_per_force,
+           "of the grains, from one computation of the elements' forces to the next, where both are joined",
+           Range::between(1, 1000));
+
   declare_coupling(file, coupling);
 
   declare_strain_program(file, program);
@@ -108,8 +112,9 @@ void TriaxialParameters::validate() const
 
 std::int64_t TriaxialParameters::loading_steps() const
 {
-  return steps_over({"Loading/isotropic time + shear time", program.end_time()},
-                    {"Loading/time step", simulation.time_step});
+  const std::int64_t steps = steps_over({"Loading/isotropic time + shear time", program.end_time()},
+                                        {"Loading/time step", simulation.time_step});
+  return (steps + cycle() - 1) / cycle() * cycle();
 }
 
 dem::SimulationParameters TriaxialParameters::loading_simulation() const

@@ -47,6 +47,7 @@ struct TriaxialParameters
 
   ContinuumParameters continuum;
   double continuum_damping = 200.; ///< mass-proportional [1/s]
+  int steps_per_force = 1;         ///< of the continuum joined to grains, see coupling::Subcycling
 
   coupling::CouplingParameters coupling;
   dem::StrainProgram program;
@@ -63,7 +64,9 @@ struct TriaxialParameters
   dem::SimulationParameters packing_simulation() const;
   dem::SimulationParameters loading_simulation() const; ///< walls damp as the grains do
 
-  std::int64_t loading_steps() const; ///< throws ConfigError where they are too many to count
+  /// Of whole cycles of the continuum; throws ConfigError where they are too many to count.
+  std::int64_t loading_steps() const;
+  int cycle() const { return kind == ModelKind::two_scale ? steps_per_force : 1; } ///< of the continuum [steps]
 
   const char *model_name() const ///< as the parameter file has it
   {

@@ -63,6 +63,7 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
     return;
   body_steps.emplace(*model.body());
   require_below(body_steps->stable().time_step, step, " on the packed cube");
+  model.continuum()->compute_every({parameters.cycle()}, step);
 }
 
 void Specimen::join(const std::vector<Vec3> &reference_by_id)
@@ -97,7 +98,7 @@ void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
   strain = strain_now;
   model.compute_forces();
   if (body_steps)
-    body_steps->require_stable(step);
+    body_steps->require_stable(step * parameters.cycle());
   for (int d = 0; d < 3; ++d)
   {
     const double velocity = edges[d] * (strain_next[d] - strain_now[d]) / step;
@@ -152,7 +153,7 @@ Vec3 Specimen::stress() const
       if (face.wall)
         pull -= outwards * model.grains()->walls[*face.wall].force[d];
       if (face.constraint)
-        pull += outwards * model.body()->reaction(*face.constraint);
+        pull += outwards * model.continuum()->reaction(*face.constraint);
       stress[d] += pull / area;
       ++n_faces;
     }
@@ -200,7 +201,10 @@ void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, Loa
   if (specimen->model.body())
     visit_body(visit, *specimen->model.body());
   if (specimen->model.overlap())
+  {
     visit("overlap", *specimen->model.overlap());
+    visit("continuum_cycle", *specimen->model.continuum());
+  }
   if (specimen->body_steps)
     visit_steps(visit, *specimen->body_steps);
   specimen->rotation.visit(visit);

@@ -135,3 +135,32 @@ TEST_CASE("a coupling of a mover that is no part of the model is refused")
   CHECK_THROWS_WITH(model.add(std::make_unique<Spring>(a, stranger, 1.)), Catch::Contains("stranger"));
   CHECK_THROWS_AS(model.add(std::make_unique<Spring>(a, stranger, 1.)), bergamo::ConfigError);
 }
+
+namespace
+{
+
+/// Largest growth of one cycle of a unit mass on two springs: that of the mover pulls once a cycle, for all of it, that
+/// of the coupling is followed exactly. Of the two eigenvalues, whose product is 1.
+double growth(const double own_frequency, const double of_coupling, const double interval)
+{
+  const double half_trace = std::cos(of_coupling * interval) - 0.5 * own_frequency * own_frequency * interval /
+                                                                   of_coupling * std::sin(of_coupling * interval);
+  return std::abs(half_trace) <= 1. ? 1. : std::abs(half_trace) + std::sqrt(half_trace * half_trace - 1.);
+}
+
+} // namespace
+
+TEST_CASE("impulses of a mover's own forces may be as far apart as its own stable step and its couplings' allow")
+{
+  const double of_coupling = GENERATE(0.01, 0.5, 1., 2., 10.); // over the mover's own frequency of 1 [1/s]
+  constexpr int n = 7;
+  StableSteps steps;
+  steps.movers.push_back({"body", 2., {0}, n});
+  steps.couplings.push_back({"overlap", 2. / of_coupling});
+  const double interval = n * steps.combined();
+  CAPTURE(interval);
+  CHECK(growth(1., of_coupling, 0.999 * interval) == 1.);
+  CHECK(growth(1., of_coupling, 1.001 * interval) > 1.);
+  CHECK(interval <= 2.);
+  CHECK(of_coupling * interval < 3.1416);
+}

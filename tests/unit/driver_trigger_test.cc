@@ -51,6 +51,8 @@ TEST_CASE("evenly is n times over a stage and once at its end")
   CHECK(due_steps(evenly(3, 10), 10) == Steps{0, 3, 6, 9, 10});
   CHECK(due_steps(evenly(100, 2), 2) == Steps{0, 1, 2}); // more often than there are steps
   CHECK(due_steps(evenly(0, 5), 5) == Steps{0, 5});
+  CHECK(due_steps(evenly(3, 12, 3), 12) == Steps{0, 3, 6, 9, 12}); // every fourth step, in cycles of three
+  CHECK(due_steps(evenly(100, 6, 3), 6) == Steps{0, 3, 6});
   CHECK(due_steps(at_the_end(), 5) == Steps{5});
 }
 

@@ -56,9 +56,10 @@ Trigger either(Trigger one, Trigger other)
   };
 }
 
-Trigger evenly(const std::int64_t n, const std::int64_t n_steps)
+Trigger evenly(const std::int64_t n, const std::int64_t n_steps, const std::int64_t cycle)
 {
-  return either(every_steps(std::max<std::int64_t>(1, n_steps / std::max<std::int64_t>(1, n))), at_the_end());
+  const std::int64_t n_cycles = n_steps / std::max<std::int64_t>(1, n) / cycle;
+  return either(every_steps(std::max<std::int64_t>(1, n_cycles) * cycle), at_the_end());
 }
 
 } // namespace bergamo::driver

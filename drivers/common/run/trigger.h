@@ -42,7 +42,8 @@ Trigger at_the_end();
 /// When one of both is due; both are asked.
 Trigger either(Trigger one, Trigger other);
 
-/// n times over a stage of n_steps steps, evenly, and once more at its end.
-Trigger evenly(std::int64_t n, std::int64_t n_steps);
+/// n times over a stage of n_steps steps, evenly, and once more at its end. @param cycle but for the end, only at its
+/// multiples [steps], >= 1
+Trigger evenly(std::int64_t n, std::int64_t n_steps, std::int64_t cycle = 1);
 
 } // namespace bergamo::driver
