@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 namespace bergamo::coupling
@@ -109,12 +108,7 @@ void ArlequinCoupling::follow(const double time_step)
 
 bool ArlequinCoupling::must_be_renewed() const
 {
-  if (parameters_.renewal == 0.)
-    return false;
-  const dem::Simulation &grains = grains_.simulation();
-  const auto has_moved_far = [&](const std::int64_t id)
-  { return (grains.particles.position[grains.index_of(id)] - reference_by_id_[id]).norm() > farthest_; };
-  return state_.largest_motion > farthest_ || std::any_of(uncoupled_.begin(), uncoupled_.end(), has_moved_far);
+  return parameters_.renewal > 0. && (state_.largest_motion > farthest_ || stray_.may_have_come(grains_.simulation()));
 }
 
 void ArlequinCoupling::renew()
@@ -158,16 +152,14 @@ void ArlequinCoupling::renew()
   look_at_overlap();
 }
 
-/// Notes when it has to be made anew, and the grains that may come into its elements.
+/// Notes when it has to be made anew.
 void ArlequinCoupling::look_at_overlap()
 {
+  if (parameters_.renewal == 0.)
+    return;
   const Overlap &overlap = penalty_.overlap();
   farthest_ = parameters_.renewal * overlap.mean_diameter();
-  const std::unordered_set<std::int64_t> coupled(overlap.particle_id.begin(), overlap.particle_id.end());
-  uncoupled_.clear();
-  for (const std::int64_t id : grains_.simulation().particles.id)
-    if (!coupled.contains(id))
-      uncoupled_.push_back(id);
+  stray_ = StrayGrains(grains_.simulation().particles, overlap.particle_id, body_.solid(), farthest_);
 }
 
 /// Brings the transfer from the last step to this one, once.

@@ -2,6 +2,7 @@
 
 #include "coupling/adapter/body_mover.h"
 #include "coupling/adapter/grains_mover.h"
+#include "coupling/adapter/stray_grains.h"
 #include "coupling/arlequin/penalty.h"
 #include "coupling/arlequin/weight.h"
 #include "coupling/arlequin/weight_transfer.h"
@@ -96,6 +97,7 @@ public:
     visit("transfer_torque", self.transfer_.torque);
     visit("transfer_on_nodes", self.transfer_.on_nodes);
     visit("transfer_work", self.transfer_work_);
+    visit("stray", self.stray_);
   }
 
 private:
@@ -121,9 +123,9 @@ private:
   WeightTransfer weight_transfer_;
   CouplingParameters parameters_;
   std::vector<double> nodal_weight_;
-  std::vector<Vec3> reference_by_id_;   // [m]
-  std::vector<std::int64_t> uncoupled_; // grains that may come into the elements
-  double farthest_ = 0.;                // motion after which the overlap is made anew [m]
+  std::vector<Vec3> reference_by_id_; // [m]
+  StrayGrains stray_;                 // that may come into the elements
+  double farthest_ = 0.;              // motion after which the overlap is made anew [m]
   PenaltyState state_;
   std::vector<Vec3>
       resting_place_; // of the coupled particles, without a difference if the body had no displacement [m]

@@ -63,6 +63,15 @@ public:
     return {};
   }
 
+  /// From a place to the nearest box about an element [m].
+  double distance_to(const Vec3 &place) const
+  {
+    const dealii::Point<3> x(place[0], place[1], place[2]);
+    std::vector<std::pair<dealii::BoundingBox<3>, unsigned int>> nearest;
+    tree_.query(boost::geometry::index::nearest(x, 1), std::back_inserter(nearest));
+    return boost::geometry::distance(x, nearest.front().first);
+  }
+
 private:
   static bool find_in_cell(const Cell &cell, const dealii::Point<3> &x, dealii::Point<3> &unit)
   {
@@ -170,6 +179,19 @@ std::vector<Vec3> reference_places(const fe::ExplicitBody &body, const std::span
       places[i] = position[i] - displacement;
     }
   return places;
+}
+
+std::vector<double> distances_to(const fe::ExplicitBody &body, const std::span<const Vec3> position)
+{
+  const ElementSearch search(body);
+  const std::span<const double> u = body.displacement();
+  double greatest = 0.;
+  for (std::size_t dof = 0; dof < u.size(); dof += 3)
+    greatest = std::max(greatest, Eigen::Map<const Vec3>(&u[dof]).norm());
+  std::vector<double> distances;
+  for (const Vec3 &place : position)
+    distances.push_back(std::max(0., search.distance_to(place) - greatest));
+  return distances;
 }
 
 } // namespace bergamo::coupling

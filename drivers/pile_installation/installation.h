@@ -57,6 +57,8 @@ public:
   double unbalanced() const;             ///< mean resultant of the grains over the mean contact force
   /// @}
 
+  std::int64_t n_renewals() const { return model.coupling() ? model.coupling()->n_renewals() : 0; } ///< of the overlap
+
   /// Warns once where strains of the elements are too small a description for their rotation.
   void look_at_rotation(Progress &progress);
   double greatest_rotation() const { return rotation.greatest(); } ///< [degrees]

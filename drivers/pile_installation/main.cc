@@ -127,6 +127,7 @@ Summary InstallationRun::summary() const
   if (const fe::ExplicitBody *body = installation->body())
   {
     summary.set("elements", body->n_elements());
+    summary.set("overlap_renewals", installation->n_renewals());
     summary.set("greatest_rotation_degrees", installation->greatest_rotation(), "degrees");
   }
   start.add_to(summary);

@@ -118,7 +118,7 @@ def draw_forces(folder, shown):
 
 
 def main():
-    parser = argument_parser(__doc__)
+    parser = argument_parser(__doc__, over_packings=False)
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -110,7 +110,6 @@ def draw(rows, folder):
 
 def main():
     parser = argument_parser(__doc__)
-    parser.add_argument("--seeds", type=int, default=1, help="packings (default 1)")
     parser.add_argument("--only", nargs="+", choices=sorted(VARIANTS), help="these groups alone")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -138,7 +138,6 @@ def draw(folder, seed, paths):
 
 def main():
     parser = argument_parser(__doc__)
-    parser.add_argument("--seeds", type=int, default=1, help="packings (default 1)")
     parser.add_argument("--paths", nargs="+", choices=PATHS, default=list(PATHS),
                         help="these alone; the continuum is fitted to them")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")

@@ -137,6 +137,50 @@ TEST_CASE("grains pass through an overlap under stress that is made anew, withou
   CHECK(std::abs(end.balance() - start.balance()) < 1e-2 * most_elastic);
 }
 
+TEST_CASE("an overlap stays where grains and elements go together, and where grains move far from its elements")
+{
+  TwoScaleModel model = test::make_pressed_model(soft_and_renewed());
+  model.compute_forces();
+  model.kick();
+  model.drift();
+  model.compute_forces();
+  const double diameter = model.coupling()->overlap().mean_diameter();
+  dem::Particles &grains = model.grains()->particles;
+  const auto shift = [&](const Vec3 &way)
+  {
+    for (Vec3 &x : grains.position)
+      x += way;
+    for (std::size_t node = 0; node < model.body()->n_nodes(); ++node)
+      for (int d = 0; d < 3; ++d)
+        model.body()->displacement()[3 * node + d] += way[d];
+  };
+  const auto renewals_of = [&](const int n_looks)
+  {
+    const std::int64_t before = model.coupling()->n_renewals();
+    for (int look = 0; look < n_looks; ++look)
+      model.overlap()->follow(0.);
+    return model.coupling()->n_renewals() - before;
+  };
+  shift({0., 0., -0.2 * diameter}); // grains come where elements were in their reference configuration
+  CHECK(renewals_of(5) == 1); // grains outside of the overlap may have come into elements; then all is known
+  CHECK(renewals_of(5) == 0);
+
+  const std::vector<int> &nodes = model.coupling()->overlap().nodes;
+  double edge = -1e300; // upper end of the elements
+  for (const int node : nodes)
+    edge = std::max(edge, model.body()->node_position()[node][2]);
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    if (grains.position[i][2] > grains.position[far][2])
+      far = i;
+  const double distance = grains.position[far][2] - edge;
+  REQUIRE(distance > 1.5 * diameter);
+  grains.position[far][2] -= 0.5 * distance;
+  CHECK(renewals_of(2) == 0);
+  grains.position[far][2] = edge + 0.1 * diameter;
+  CHECK(renewals_of(2) == 1);
+}
+
 TEST_CASE("an overlap that was made anew goes on with the same bits after a restart")
 {
   TwoScaleModel model = make_passing_model();

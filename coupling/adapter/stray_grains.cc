@@ -1,0 +1,33 @@
+#include "coupling/adapter/stray_grains.h"
+
+#include "coupling/adapter/dealii_adapter.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace bergamo::coupling
+{
+
+StrayGrains::StrayGrains(const dem::Particles &particles, const std::span<const std::int64_t> coupled,
+                         const fe::ExplicitBody &body, const double farthest)
+{
+  const std::unordered_set<std::int64_t> is_coupled(coupled.begin(), coupled.end());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (!is_coupled.contains(particles.id[i]))
+    {
+      id_.push_back(particles.id[i]);
+      place_.push_back(particles.position[i]);
+    }
+  for (const double distance : distances_to(body, place_))
+    reach_.push_back(std::max(farthest, distance - farthest));
+}
+
+bool StrayGrains::may_have_come(const dem::Simulation &grains) const
+{
+  for (std::size_t k = 0; k < id_.size(); ++k)
+    if ((grains.particles.position[grains.index_of(id_[k])] - place_[k]).squaredNorm() > reach_[k] * reach_[k])
+      return true;
+  return false;
+}
+
+} // namespace bergamo::coupling

@@ -1,0 +1,121 @@
+#!/usr/bin/python3
+"""Whether two scales give the resistance of grains alone, over the size of the grains' domain.
+
+For every seed the same sand settles in the same box; it is penetrated as it is, grains alone, and with blocks of three
+sizes cut out of it and elements beyond. What differs is smoothed over a tenth of the pile's way, as single grains that
+slip make most of the difference from moment to moment: the largest difference of the head's resistance and the mean one
+(root of the mean square), over the largest resistance of grains alone, as they are and smoothed.
+
+Writes FOLDER/domains.csv and FOLDER/plots/domains.png and prints the table. Runs that are finished are not run again.
+Further settings NAME=VALUE of the driver hold for all runs.
+"""
+
+import csv
+import resource
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "common" / "plots"))
+import run_data
+import studies
+
+BLOCKS = {"small": (0.016, 0.0125), "middle": (0.022, 0.0125), "large": (0.03, 0.0145)}  # width and depth [m]
+SMOOTHED_OVER = 0.1  # of the way
+
+
+def smoothed(history):
+    """Mean of the resistance about each sample, over a tenth of the way."""
+    way, force = history["way_m"], history["head_resistance_N"]
+    width = SMOOTHED_OVER * way[-1]
+    return np.array([force[np.abs(way - w) <= width / 2].mean() for w in way])
+
+
+def differences(history, alone):
+    """Largest and mean difference of the resistance, as it is and smoothed, over the largest of grains alone [%]; none
+    of a run that has ended early."""
+    if len(history["time_s"]) < len(alone["time_s"]):
+        return None
+    found = []
+    for value in (lambda h: h["head_resistance_N"], smoothed):
+        difference, scale = value(history) - value(alone), np.abs(value(alone)).max()
+        found += [100 * np.abs(difference).max() / scale, 100 * np.sqrt((difference**2).mean()) / scale]
+    return found
+
+
+def timed_run(program, folder, settings):
+    """Runs the driver and notes its processor time; false where it fails."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    is_new = not run_data.read_summary(folder)
+    is_done = studies.run(program, folder, settings, [HERE / "pile_installation_check.prm"])
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if is_new and is_done:
+        (folder / "processor_time.txt").write_text(f"{after.ru_utime - before.ru_utime:.1f}\n")
+    return is_done
+
+
+def measure(program, folder, seeds, common):
+    """A row a run, with the differences from grains alone of the same seed."""
+    rows = []
+    for seed in seeds:
+        kinds = {"grains alone": {"Model/kind": "grains"}}
+        kinds |= {f"{name} block": {"Model/kind": "two-scale", "Model/block width": width, "Model/block depth": depth}
+                  for name, (width, depth) in BLOCKS.items()}
+        folders = {kind: folder / f"{kind}-{seed}".replace(" ", "-") for kind in kinds}
+        for kind, settings in kinds.items():
+            is_done = timed_run(program, folders[kind], {**common, **settings, "Sand/seed": seed})
+            summary = run_data.read_summary(folders[kind])
+            if not is_done:
+                rows.append([kind, seed, *[""] * 9])
+                continue
+            found = differences(run_data.read_history(folders[kind]), run_data.read_history(folders["grains alone"]))
+            rows.append([kind, seed, summary["particles"], summary.get("elements", 0),
+                         *([f"{value:.2f}" for value in found] if found else [""] * 4), f"{summary['wall_time_s']:.1f}",
+                         (folders[kind] / "processor_time.txt").read_text().strip(),
+                         f"{summary['energy_residual']:.2g}"])
+    return rows
+
+
+def write_table(rows, path):
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["ground", "seed", "grains", "elements", "largest_percent", "mean_percent",
+                        "smoothed_largest_percent", "smoothed_mean_percent", "wall_time_s", "processor_time_s",
+                        "energy_residual"])
+        table.writerows(rows)
+
+
+def draw(folder, seed):
+    figure, [panels] = run_data.new_panels(1, 2)
+    for kind, colour in zip(["grains alone", *(f"{name} block" for name in BLOCKS)], run_data.COLOURS[6:] + run_data.COLOURS):
+        run_folder = folder / f"{kind}-{seed}".replace(" ", "-")
+        if not run_data.read_summary(run_folder):
+            continue
+        history = run_data.read_history(run_folder)
+        for axes, values in zip(panels, (history["head_resistance_N"], smoothed(history))):
+            axes.plot(values, 1e3 * history["way_m"], color=colour, label=kind)
+    for axes, label in zip(panels, ("resistance of the head in N", "the same, smoothed over a tenth of the way, in N")):
+        axes.set_xlabel(label)
+        axes.set_ylabel("way of the pile in mm")
+        axes.invert_yaxis()
+        axes.set_xlim(left=0)
+    panels[0].legend(fontsize=8)
+    run_data.save_diagram(figure, str(folder), "domains.png")
+
+
+def main():
+    parser = studies.argument_parser(__doc__, "pile_installation")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    folder, seeds = arguments.folder.resolve(), range(1, arguments.seeds + 1)
+    common = dict(text.split("=", 1) for text in getattr(arguments, "set"))
+    write_table(measure(arguments.program.resolve(), folder, seeds, common), folder / "domains.csv")
+    print((folder / "domains.csv").read_text(), end="")
+    draw(folder, seeds[0])
+
+
+if __name__ == "__main__":
+    main()
