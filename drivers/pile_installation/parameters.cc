@@ -18,7 +18,7 @@ InstallationParameters::InstallationParameters()
   simulation.set_damping(0.3);
   simulation.between_grains().friction = 0.24;
   simulation.with_walls().friction = 0.;
-  simulation.time_step = 6e-6;
+  simulation.time_step = 5e-6;
   sand.box = Vec3(60e-3, 4e-3, 26e-3);
   sand.solid_fraction = 0.55;
   sand.settling_gravity = 9.81;
@@ -29,7 +29,7 @@ InstallationParameters::InstallationParameters()
                             .friction_angle = 24.,
                             .dilation_angle = 0.,
                             .cohesion = 2.,
-                            .density = 1650.,
+                            .density = 1700.,
                             .reference_pressure = 400.,
                             .stiffness_exponent = 0.33};
   coupling.penalty = 5e11;
