@@ -19,11 +19,16 @@ namespace
 {
 
 /// @param limit stable step of the continuum [s]; @param state the body is in
-void require_below(const double limit, const double step, const std::string &state)
+void require_below(const double limit, const TriaxialParameters &parameters, const std::string &state)
 {
-  if (step > limit)
-    reject("Loading/time step is ", step, " s: it must stay below ", limit, " s, the stable step of the continuum",
-           state);
+  const double step = parameters.simulation.time_step;
+  if (step * parameters.cycle() <= limit)
+    return;
+  if (step <= limit)
+    reject("Continuum/steps per force is ", parameters.steps_per_force, ": at a Loading/time step of ", step,
+           " s it must stay below ", limit / step, ", for the stable step of the continuum is ", limit, " s", state);
+  reject("Loading/time step is ", step, " s: it must stay below ", limit, " s, the stable step of the continuum",
+         state);
 }
 
 } // namespace
@@ -36,7 +41,7 @@ void require_stable_continuum(const TriaxialParameters &parameters)
   const double shrinkage = parameters.has_grains() ? std::min(1., parameters.expected_solid_fraction / densest) : 1.;
   LoadingStart least;
   least.box = {Vec3::Zero(), Vec3::Constant(parameters.edge * std::cbrt(shrinkage))};
-  require_below(fe::stable_step(*make_continuum(parameters, least)).time_step, parameters.simulation.time_step,
+  require_below(fe::stable_step(*make_continuum(parameters, least)).time_step, parameters,
                 parameters.has_grains() ? " if the grains pack as densely as they can" : "");
 }
 
@@ -62,7 +67,7 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
   if (!model.body())
     return;
   body_steps.emplace(*model.body());
-  require_below(body_steps->stable().time_step, step, " on the packed cube");
+  require_below(body_steps->stable().time_step, parameters, " on the packed cube");
   model.continuum()->compute_every({parameters.cycle()}, step);
 }
 

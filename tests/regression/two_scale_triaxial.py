@@ -217,12 +217,13 @@ class Restart(Case):
     def test_killed_run_goes_on_with_the_same_bits(self):
         """kill -9 in the loading, then --restart on another number of threads: the files are those of a run in one go."""
         whole, killed = self.tmp / "whole", self.tmp / "killed"
-        self.assertEqual(self.run_driver(whole, "--threads", "1").returncode, 0)
-        options = [*SNAPSHOTS_BY_STEPS, "--threads", "1"]
+        cycle = ["--set", "Continuum/steps per force=3"]  # the snapshot falls into one
+        self.assertEqual(self.run_driver(whole, "--threads", "1", *cycle).returncode, 0)
+        options = [*SNAPSHOTS_BY_STEPS, "--threads", "1", *cycle]
         stop_when(lambda: n_rows(killed / "history.csv") > 25, self.command(killed, *options))
         self.assertFalse((killed / "summary.json").exists())
         self.assertTrue((killed / "snapshot.h5").exists())
-        result = self.run_driver(killed, *SNAPSHOTS_BY_STEPS, "--restart", "--threads", "2")
+        result = self.run_driver(killed, *SNAPSHOTS_BY_STEPS, "--restart", "--threads", "2", *cycle)
         self.assertEqual(result.returncode, 0, result.stderr)
         for name in ("history.csv", "grains_0000.vtu", "grains_0001.vtu"):
             self.assertEqual((whole / name).read_bytes(), (killed / name).read_bytes(), name)
@@ -273,6 +274,7 @@ class BadInput(Case):
         out = self.tmp / "run"
         mistakes = {
             "Grains/frction=0.3": ("frction", "friction"),
+            "Continuum/steps per force=1000": ("Continuum/steps per force is 1000", "stable step of the continuum"),
             "Grain/friction=0.3": ("Grain/friction", "Grains"),
             "Grains/friction=rough": ("friction", "rough"),
             "Continuum/Poisson's ratio=0.6": ("Poisson's ratio", "0.6", "0.5"),
