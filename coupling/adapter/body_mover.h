@@ -16,7 +16,7 @@ namespace bergamo::coupling
 struct Subcycling
 {
   int steps = 1;             ///< from one computation to the next, >= 1
-  double steady_time = 1e-3; ///< in which the steady part of the couplings' forces follows them [s], > 0
+  double steady_time = 1e-4; ///< in which the steady part of the couplings' forces follows them [s], > 0
 };
 
 /// A body of solids or of membranes as a mover, with the rigid bodies that hold some of its nodes.

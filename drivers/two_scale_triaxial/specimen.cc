@@ -68,7 +68,7 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
     return;
   body_steps.emplace(*model.body());
   require_below(body_steps->stable().time_step, parameters, " on the packed cube");
-  model.continuum()->compute_every({parameters.cycle()}, step);
+  model.continuum()->compute_every({parameters.cycle(), parameters.coupling.transfer_time}, step);
 }
 
 void Specimen::join(const std::vector<Vec3> &reference_by_id)
