@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -28,6 +29,17 @@ PenaltyCoupling set_up(GrainsMover &grains, SolidMover &body, const CouplingPara
   return penalty;
 }
 
+constexpr std::size_t ahead = 32; // grains, about as long as memory takes to answer
+
+/// Fetches what will be asked of the engine's arrays: the grains of an element are near one another there, in any
+/// order.
+template <class... Arrays>
+BERGAMO_INLINE void prefetch(const std::vector<std::int32_t> &index, const std::size_t k, const Arrays &...arrays)
+{
+  const std::int32_t later = index[std::min(k + ahead, index.size() - 1)];
+  (__builtin_prefetch(arrays.data() + later), ...);
+}
+
 } // namespace
 
 void CouplingParameters::validate() const
@@ -44,10 +56,9 @@ void CouplingParameters::validate() const
 ArlequinCoupling::ArlequinCoupling(GrainsMover &grains, SolidMover &body, const CouplingParameters &parameters,
                                    const OverlapPlace &place, std::string name)
     : Coupling(std::move(name)), grains_(grains), body_(body), penalty_(set_up(grains, body, parameters, place)),
-      weight_transfer_(penalty_.overlap()), parameters_(parameters),
+      weight_transfer_(penalty_.projection().blocks(), penalty_.overlap().nodes), parameters_(parameters),
       nodal_weight_(place.nodal_weight.begin(), place.nodal_weight.end()),
-      reference_by_id_(place.reference_by_id.begin(), place.reference_by_id.end()),
-      particle_displacement_(penalty_.overlap().n_particles()), particle_force_(penalty_.overlap().n_particles())
+      reference_by_id_(place.reference_by_id.begin(), place.reference_by_id.end())
 {
   dem::Particles &p = grains.simulation().particles;
   for (std::vector<Vec3> *external : {&p.external_force, &p.external_torque})
@@ -58,50 +69,60 @@ ArlequinCoupling::ArlequinCoupling(GrainsMover &grains, SolidMover &body, const 
 
 void ArlequinCoupling::apply()
 {
-  dem::Simulation &grains = grains_.simulation();
-  dem::Particles &p = grains.particles;
-  const Overlap &overlap = penalty_.overlap();
-  follow_transfer();
+  find_particles();
+  give_transfer();
   if (has_started_ == 0)
     start();
   const std::span<double> fe_force = body_.solid().external_force();
-  compute_penalty(fe_force);
   for (std::size_t dof = 0; dof < fe_force.size(); ++dof)
     fe_force[dof] += transfer_.on_nodes[dof];
-  for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-  {
-    const auto i = grains.index_of(overlap.particle_id[k]);
-    particle_force_[k] += transfer_.force[k];
-    p.external_force[i] += particle_force_[k];
-    p.external_torque[i] += transfer_.torque[k];
-  }
+  std::vector<Vec3> &external = grains_.simulation().particles.external_force;
+  compute_penalty(
+      [&](const std::size_t k, const Vec3 &force)
+      {
+        prefetch(index_, k, external);
+        external[index_[k]] += force;
+      },
+      fe_force);
   has_started_ = 1;
+}
+
+/// Where the grains are in the engine's arrays, which it sorts now and then.
+void ArlequinCoupling::find_particles()
+{
+  const dem::Simulation &grains = grains_.simulation();
+  if (seen_order_ == grains.n_orders())
+    return;
+  index_.clear();
+  for (const std::int64_t id : penalty_.overlap().particle_id)
+    index_.push_back(grains.index_of(id));
+  seen_order_ = grains.n_orders();
 }
 
 void ArlequinCoupling::start()
 {
   balance_edge();
-  const dem::Simulation &grains = grains_.simulation();
-  const Overlap &overlap = penalty_.overlap();
-  resting_place_ = displacement_at(overlap, body_.solid());
-  for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-    resting_place_[k] = grains.particles.position[grains.index_of(overlap.particle_id[k])] - resting_place_[k];
+  const dem::Particles &p = grains_.simulation().particles;
+  resting_place_ = displacement_at(penalty_.overlap(), body_.solid());
+  for (std::size_t k = 0; k < resting_place_.size(); ++k)
+    resting_place_[k] = p.position[index_[k]] - resting_place_[k];
 }
 
-void ArlequinCoupling::compute_penalty(const std::span<double> fe_force)
+template <class AddForce>
+void ArlequinCoupling::compute_penalty(const AddForce &add_force, const std::span<double> fe_force)
 {
-  const dem::Simulation &grains = grains_.simulation();
-  const Overlap &overlap = penalty_.overlap();
-  for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-    particle_displacement_[k] = grains.particles.position[grains.index_of(overlap.particle_id[k])] - resting_place_[k];
-  state_ =
-      penalty_.compute(particle_displacement_, std::as_const(body_.solid()).displacement(), particle_force_, fe_force);
+  const std::vector<Vec3> &position = grains_.simulation().particles.position;
+  const auto displacement = [&](const std::size_t k)
+  {
+    prefetch(index_, k, position);
+    return Vec3(position[index_[k]] - resting_place_[k]);
+  };
+  state_ = penalty_.compute(displacement, std::as_const(body_.solid()).displacement(), add_force, fe_force);
 }
 
 void ArlequinCoupling::follow(const double time_step)
 {
   drifted_ = time_step;
-  transfer_work_ += 0.5 * drifted_ * work_of(transfer_);
   if (must_be_renewed())
     renew();
 }
@@ -113,8 +134,10 @@ bool ArlequinCoupling::must_be_renewed() const
 
 void ArlequinCoupling::renew()
 {
+  find_particles();
   std::vector<double> ignored(body_.solid().displacement().size(), 0.);
-  compute_penalty(ignored); // the load densities at the present places
+  compute_penalty([](std::size_t, const Vec3 &) {}, ignored); // the load densities at the present places
+  transfer_work_ += 0.5 * drifted_ * power_of(transfer_);     // until here; what apply() books anew is taken off below
   const dem::Simulation &grains = grains_.simulation();
   const dem::Particles &p = grains.particles;
   const std::vector<Vec3> present = reference_places(body_.solid(), p.position);
@@ -128,7 +151,7 @@ void ArlequinCoupling::renew()
     old_place.emplace(old_id[k], k);
   const std::size_t n = overlap.n_particles();
   std::vector<Vec3> resting = displacement_at(overlap, body_.solid()), moved(n, Vec3::Zero());
-  Transfer transfer{std::vector<Vec3>(n, Vec3::Zero()), std::vector<Vec3>(n, Vec3::Zero()), {}};
+  Transfer transfer(n);
   for (std::size_t k = 0; k < n; ++k)
   {
     const std::int64_t id = overlap.particle_id[k];
@@ -144,17 +167,19 @@ void ArlequinCoupling::renew()
   transfer_ = std::move(transfer);
   grains_.change_weights(old_id, overlap.particle_id,
                          OverlapWeights(overlap, nodal_weight_, parameters_.least_weight).particle);
-  weight_transfer_ = WeightTransfer(overlap);
-  give_transfer_to_nodes();
-  particle_displacement_.resize(n);
-  particle_force_.resize(n);
   penalty_.renew(std::move(overlap), moved);
+  weight_transfer_ = WeightTransfer(penalty_.projection().blocks(), penalty_.overlap().nodes);
+  transfer_.on_nodes.assign(body_.solid().displacement().size(), 0.);
+  weight_transfer_.add_opposite(transfer_.force, transfer_.torque, transfer_.on_nodes);
   look_at_overlap();
+  find_particles();
+  transfer_work_ -= 0.5 * drifted_ * power_of(transfer_);
 }
 
 /// Notes when it has to be made anew.
 void ArlequinCoupling::look_at_overlap()
 {
+  seen_order_ = -1;
   if (parameters_.renewal == 0.)
     return;
   const Overlap &overlap = penalty_.overlap();
@@ -162,34 +187,45 @@ void ArlequinCoupling::look_at_overlap()
   stray_ = StrayGrains(grains_.simulation().particles, overlap.particle_id, body_.solid(), farthest_);
 }
 
-/// Brings the transfer from the last step to this one, once.
-void ArlequinCoupling::follow_transfer()
+/// Brings the transfer from the last step to this one, once, and puts it on the grains; the opposite becomes that of
+/// the nodes.
+void ArlequinCoupling::give_transfer()
 {
-  if (has_started_ != 0 && drifted_ == 0.)
-    return; // forces may be asked for again
-  const dem::Simulation &grains = grains_.simulation();
-  const dem::Particles &p = grains.particles;
-  const Overlap &overlap = penalty_.overlap();
-  const double share = has_started_ != 0 ? -std::expm1(-drifted_ / parameters_.transfer_time) : 1.;
-  transfer_.force.resize(overlap.n_particles(), Vec3::Zero());
-  transfer_.torque.resize(overlap.n_particles(), Vec3::Zero());
-  if (p.are_weighted())
-    for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-    {
-      const auto i = grains.index_of(overlap.particle_id[k]);
-      transfer_.force[k] += share * (p.transfer_force[i] - transfer_.force[k]);
-      transfer_.torque[k] += share * (p.transfer_torque[i] - transfer_.torque[k]);
-    }
-  give_transfer_to_nodes();
-  if (has_started_ != 0)
-    transfer_work_ += 0.5 * drifted_ * work_of(transfer_); // the first half is that of follow()
-  drifted_ = 0.;
-}
+  dem::Particles &p = grains_.simulation().particles;
+  const bool is_first = has_started_ == 0;
+  const double share = !p.are_weighted() ? 0. : is_first ? 1. : -std::expm1(-drifted_ / parameters_.transfer_time);
+  transfer_.resize(penalty_.overlap().n_particles());
+  const double half_step = is_first ? 0. : 0.5 * drifted_;
+  if (half_step > 0.)
+    transfer_work_ += half_step * power_on_nodes(transfer_);
 
-void ArlequinCoupling::give_transfer_to_nodes()
-{
+  // The power of each block's grains, before and after, along the step that led here.
+  std::vector<double> power(penalty_.projection().blocks()->blocks().size(), 0.);
   transfer_.on_nodes.assign(body_.solid().displacement().size(), 0.);
-  weight_transfer_.add_opposite(transfer_.force, transfer_.torque, transfer_.on_nodes);
+  weight_transfer_.add_opposite(
+      [&](const std::size_t block, const std::size_t k)
+      {
+        const std::int32_t i = index_[k];
+        prefetch(index_, k, p.transfer_force, p.transfer_torque, p.drift_velocity, p.angular_velocity, p.external_force,
+                 p.external_torque);
+        Vec3 &force = transfer_.force[k], &torque = transfer_.torque[k];
+        if (share > 0.)
+        {
+          const Vec3 more_force = share * (p.transfer_force[i] - force),
+                     more_torque = share * (p.transfer_torque[i] - torque);
+          power[block] += (2. * force + more_force).dot(p.drift_velocity[i]) +
+                          (2. * torque + more_torque).dot(p.angular_velocity[i]);
+          force += more_force;
+          torque += more_torque;
+        }
+        p.external_force[i] += force;
+        p.external_torque[i] += torque;
+        return WeightTransfer::Load{force, torque};
+      },
+      transfer_.on_nodes);
+  if (half_step > 0.)
+    transfer_work_ += half_step * (std::accumulate(power.begin(), power.end(), 0.) + power_on_nodes(transfer_));
+  drifted_ = 0.;
 }
 
 /// Dead loads of the held grains, of what acts on them at this step; see HeldEdge.
@@ -201,26 +237,27 @@ void ArlequinCoupling::balance_edge()
   for (std::size_t k = 0; k < edge.size(); ++k)
   {
     const int coupled = edge.particles()[k];
-    const auto i = grains.index_of(penalty_.overlap().particle_id[coupled]);
+    const std::int32_t i = index_[coupled];
     edge.dead_load[k] =
         -(p.force[i] + transfer_.force[coupled] + p.weight[i] * p.mass[i] * grains.parameters().gravity);
   }
 }
 
-/// Of a transfer along the step that led here, over its time [W].
-double ArlequinCoupling::work_of(const Transfer &transfer) const
+/// Of a transfer along the step that led here [W].
+double ArlequinCoupling::power_of(const Transfer &transfer) const
 {
-  const dem::Simulation &grains = grains_.simulation();
-  const dem::Particles &p = grains.particles;
-  const Overlap &overlap = penalty_.overlap();
+  const dem::Particles &p = grains_.simulation().particles;
+  double sum = power_on_nodes(transfer);
+  for (std::size_t k = 0; k < transfer.force.size(); ++k)
+    sum += transfer.force[k].dot(p.drift_velocity[index_[k]]) + transfer.torque[k].dot(p.angular_velocity[index_[k]]);
+  return sum;
+}
+
+double ArlequinCoupling::power_on_nodes(const Transfer &transfer) const
+{
   double sum = 0.;
-  for (std::size_t k = 0; k < overlap.n_particles(); ++k)
-  {
-    const auto i = grains.index_of(overlap.particle_id[k]);
-    sum += transfer.force[k].dot(p.drift_velocity[i]) + transfer.torque[k].dot(p.angular_velocity[i]);
-  }
   const std::span<const double> velocity = std::as_const(body_.solid()).velocity();
-  for (const int node : overlap.nodes)
+  for (const int node : penalty_.overlap().nodes)
     for (int d = 0; d < 3; ++d)
       sum += transfer.on_nodes[3 * node + d] * velocity[3 * node + d];
   return sum;

@@ -82,9 +82,6 @@ public:
   /// restarted run is joined with these.
   const std::vector<Vec3> &reference_by_id() const { return reference_by_id_; }
 
-  /// Forces of the last apply() on the coupled particles, in the order of the overlap [N].
-  std::span<const Eigen::Vector3d> particle_forces() const { return particle_force_; }
-
   /// All that a step depends on beside the movers, by name; see dem/core/state.h.
   template <class Self, class Visit>
   static void visit_state(Self &self, Visit &visit)
@@ -106,16 +103,25 @@ private:
   {
     std::vector<Vec3> force, torque; // on the coupled particles [N], [N m]
     std::vector<double> on_nodes;    // by degree of freedom [N]
+
+    explicit Transfer(const std::size_t n_particles = 0) { resize(n_particles); }
+    void resize(const std::size_t n_particles)
+    {
+      force.resize(n_particles, Vec3::Zero());
+      torque.resize(n_particles, Vec3::Zero());
+    }
   };
 
   void start();
   void look_at_overlap();
+  void find_particles();
   bool must_be_renewed() const;
-  void compute_penalty(std::span<double> fe_force);
-  void follow_transfer();
-  void give_transfer_to_nodes();
+  template <class AddForce>
+  void compute_penalty(const AddForce &add_force, std::span<double> fe_force);
+  void give_transfer();
   void balance_edge();
-  double work_of(const Transfer &transfer) const;
+  double power_of(const Transfer &transfer) const;
+  double power_on_nodes(const Transfer &transfer) const;
 
   GrainsMover &grains_;
   SolidMover &body_;
@@ -124,12 +130,13 @@ private:
   CouplingParameters parameters_;
   std::vector<double> nodal_weight_;
   std::vector<Vec3> reference_by_id_; // [m]
+  std::vector<std::int32_t> index_;   // of the coupled grains in the engine's arrays
+  std::int64_t seen_order_ = -1;      // of the engine's grains, for which these are right
   StrayGrains stray_;                 // that may come into the elements
   double farthest_ = 0.;              // motion after which the overlap is made anew [m]
   PenaltyState state_;
   std::vector<Vec3>
       resting_place_; // of the coupled particles, without a difference if the body had no displacement [m]
-  std::vector<Eigen::Vector3d> particle_displacement_, particle_force_;
   Transfer transfer_;
   double transfer_work_ = 0.; // [J]
   double drifted_ = 0.;       // since the last apply() [s]

@@ -90,6 +90,26 @@ private:
   dealii::RTree<std::pair<dealii::BoundingBox<3>, unsigned int>> tree_;
 };
 
+/// A particle in an element.
+struct Placed
+{
+  std::size_t particle;
+  ElementSearch::Found at;
+};
+
+/// The particles that lie in elements, element by element, and in one in the order in which they came.
+std::vector<Placed> placed_by_element(const fe::ExplicitBody &body, const std::span<const Vec3> position)
+{
+  const ElementSearch search(body);
+  std::vector<Placed> placed;
+  for (std::size_t i = 0; i < position.size(); ++i)
+    if (const auto at = search.find(position[i]))
+      placed.push_back({i, *at});
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const Placed &a, const Placed &b) { return a.at.element < b.at.element; });
+  return placed;
+}
+
 /// Gradients of the shape functions in space [1/m].
 std::array<Vec3, 8> gradients_at(const dealii::FE_Q<3> &trilinear, const Cell &cell, const dealii::Point<3> &unit)
 {
@@ -131,20 +151,16 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
     return place->second;
   };
 
-  const ElementSearch search(body);
   const dealii::FE_Q<3> trilinear(1);
-  for (std::size_t i = 0; i < position.size(); ++i)
+  for (const auto &[i, at] : placed_by_element(body, position))
   {
-    const auto found = search.find(position[i]);
-    if (!found)
-      continue;
-    const auto nodes = body.element_nodes(found->element);
-    const std::array<Vec3, 8> gradients = gradients_at(trilinear, found->cell, found->unit);
+    const auto nodes = body.element_nodes(at.element);
+    const std::array<Vec3, 8> gradients = gradients_at(trilinear, at.cell, at.unit);
     for (unsigned int v = 0; v < 8; ++v)
     {
       overlap.shape_gradient.push_back(gradients[v]);
       overlap.shape_node.push_back(place_of(nodes[v]));
-      overlap.shape_value.push_back(std::clamp(trilinear.shape_value(v, found->unit), 0., 1.));
+      overlap.shape_value.push_back(std::clamp(trilinear.shape_value(v, at.unit), 0., 1.));
     }
     overlap.shape_offset.push_back(overlap.shape_node.size());
     overlap.particle_id.push_back(id[i]);

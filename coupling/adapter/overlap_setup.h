@@ -11,7 +11,8 @@
 namespace bergamo::coupling
 {
 
-/// The overlap of a body and of all grains, in the order of their ids: it is the same after a restart.
+/// The overlap of a body and of all grains, element by element and in the order of their ids: it is the same after a
+/// restart.
 /// @param reference_by_id places in the body's reference configuration [m]
 /// @throws ConfigError as make_overlap()
 Overlap overlap_of(const dem::Particles &particles, const SolidMover &body, std::span<const Vec3> reference_by_id);

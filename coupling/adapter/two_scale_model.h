@@ -41,9 +41,6 @@ public:
   /// Of the last compute_forces(); zero before join().
   PenaltyState penalty_state() const { return overlap_ ? overlap_->state() : PenaltyState(); }
 
-  /// Forces of the last compute_forces() [N]: on the coupled particles, in the order of the overlap.
-  std::span<const Eigen::Vector3d> particle_forces() const { return overlap_->particle_forces(); }
-
   StableSteps stable_steps() const { return model_.stable_steps(); }
 
   /// @name For further parts

@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -35,13 +36,9 @@ HeldEdge::HeldEdge(const Overlap &overlap, const std::span<const double> node_we
     }
     if (!(weight < depth * gradient.norm()))
       continue;
-    if (overlap.shape_offset[particle + 1] - overlap.shape_offset[particle] != n_nodes)
-      reject("a held edge needs elements of 8 nodes");
     for (std::size_t k = overlap.shape_offset[particle]; k < overlap.shape_offset[particle + 1]; ++k)
-    {
       node_.push_back(overlap.nodes[overlap.shape_node[k]]);
-      value_.push_back(overlap.shape_value[k]);
-    }
+    place_.push_back(overlap.local_place(particle));
     id_.push_back(overlap.particle_id[particle]);
     particle_.push_back(static_cast<std::int32_t>(particle));
     stiffness_.push_back(parameters.stiffness * particle_weight[particle] * overlap.particle_volume[particle]);
@@ -57,26 +54,46 @@ double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_disp
 {
   energy_.assign(size(), 0.);
   double sum = 0.;
-  for (std::size_t k = 0; k < size(); ++k)
+  for (std::size_t begin = 0, end = 0; begin < size(); begin = end)
   {
-    Eigen::Vector3d difference = particle_displacement[particle_[k]];
-    if (loads == Loads::all)
-      difference += shift_[k];
-    for (std::size_t n = n_nodes * k; n < n_nodes * (k + 1); ++n)
-      difference -= value_[n] * Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * node_[n]]);
-    Eigen::Vector3d force = -stiffness_[k] * difference;
-    energy_[k] = 0.5 * stiffness_[k] * difference.squaredNorm();
-    if (loads == Loads::all)
+    end = end_of_element(begin);
+    const std::int32_t *const nodes = &node_[n_nodes * begin];
+    ElementBlocks::Eights at_nodes, of_forces{};
+    for (std::size_t n = 0; n < n_nodes; ++n)
+      at_nodes[n] = padded(Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * nodes[n]]));
+    const ElementBlocks::Eights field = ElementBlocks::coefficients(at_nodes);
+    for (std::size_t k = begin; k < end; ++k)
     {
-      force += dead_load[k];
-      energy_[k] -= dead_load[k].dot(difference);
+      const ElementBlocks::Products at(place_[k]);
+      Eigen::Vector3d difference = particle_displacement[k] - unpadded(at.value_of(field));
+      if (loads == Loads::all)
+        difference += shift_[k];
+      Eigen::Vector3d force = -stiffness_[k] * difference;
+      energy_[k] = 0.5 * stiffness_[k] * difference.squaredNorm();
+      if (loads == Loads::all)
+      {
+        force += dead_load[k];
+        energy_[k] -= dead_load[k].dot(difference);
+      }
+      particle_force[k] = force;
+      at.add_to(of_forces, padded(force));
+      sum += energy_[k];
     }
-    particle_force[particle_[k]] += force;
-    for (std::size_t n = n_nodes * k; n < n_nodes * (k + 1); ++n)
-      Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * node_[n]) -= value_[n] * force;
-    sum += energy_[k];
+    at_nodes = ElementBlocks::at_nodes(of_forces);
+    for (std::size_t n = 0; n < n_nodes; ++n)
+      Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * nodes[n]) -= unpadded(at_nodes[n]);
   }
   return sum;
+}
+
+/// Of particles in the same element that follow one another.
+std::size_t HeldEdge::end_of_element(const std::size_t k) const
+{
+  const auto nodes_of = [&](const std::size_t particle) { return node_.begin() + n_nodes * particle; };
+  std::size_t end = k + 1;
+  while (end < size() && std::equal(nodes_of(k), nodes_of(k + 1), nodes_of(end)))
+    ++end;
+  return end;
 }
 
 double HeldEdge::renew(const Overlap &overlap, const std::span<const Eigen::Vector3d> moved)
@@ -113,11 +130,8 @@ void HeldEdge::remove(const std::vector<bool> &is_gone)
     stiffness_[kept] = stiffness_[k];
     shift_[kept] = shift_[k];
     dead_load[kept] = dead_load[k];
-    for (std::size_t n = 0; n < n_nodes; ++n)
-    {
-      node_[n_nodes * kept + n] = node_[n_nodes * k + n];
-      value_[n_nodes * kept + n] = value_[n_nodes * k + n];
-    }
+    place_[kept] = place_[k];
+    std::copy_n(node_.begin() + n_nodes * k, n_nodes, node_.begin() + n_nodes * kept);
     ++kept;
   }
   id_.resize(kept);
@@ -125,8 +139,8 @@ void HeldEdge::remove(const std::vector<bool> &is_gone)
   stiffness_.resize(kept);
   shift_.resize(kept);
   dead_load.resize(kept);
+  place_.resize(kept);
   node_.resize(n_nodes * kept);
-  value_.resize(n_nodes * kept);
 }
 
 } // namespace bergamo::coupling

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/arlequin/overlap.h"
+#include "coupling/arlequin/element_blocks.h"
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -49,7 +49,8 @@ public:
     springs
   };
 
-  /// Adds its forces on both models, as PenaltyCoupling::compute() has them [N]. @return their energy [J]
+  /// Its forces on both models, as PenaltyCoupling::compute() has them, particles in the order of particles() [N]:
+  /// `particle_force` is overwritten, `fe_force` is added to. @return their energy [J]
   double add_forces(std::span<const Eigen::Vector3d> particle_displacement, std::span<const double> fe_displacement,
                     std::span<Eigen::Vector3d> particle_force, std::span<double> fe_force, Loads loads);
 
@@ -65,7 +66,7 @@ public:
     visit("particle", self.particle_);
     visit("stiffness", self.stiffness_);
     visit("node", self.node_);
-    visit("value", self.value_);
+    visit("place", self.place_);
     visit("shift", self.shift_);
     visit("dead_load", self.dead_load);
   }
@@ -73,13 +74,14 @@ public:
 private:
   static constexpr std::size_t n_nodes = 8; // of an element
 
+  std::size_t end_of_element(std::size_t k) const;
   void remove(const std::vector<bool> &is_gone);
 
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> particle_;
   std::vector<double> stiffness_;      // [N/m]
   std::vector<std::int32_t> node_;     // of the mesh, 8 a particle
-  std::vector<double> value_;          // of their shape functions at its place
+  std::vector<Eigen::Vector3d> place_; // in their element, in local coordinates
   std::vector<Eigen::Vector3d> shift_; // of the places from which displacements count since the edge was made [m]
   std::vector<double> energy_;         // at the last add_forces() [J]
 };

@@ -30,6 +30,12 @@ std::string text(const Eigen::Vector3d &position)
   return stream.str();
 }
 
+/// On which side a node of an element lies along a local coordinate.
+double side(const int corner, const int axis)
+{
+  return (corner >> axis & 1) != 0 ? 1. : -1.;
+}
+
 void check_sizes(const Overlap &overlap)
 {
   const std::size_t n_nodes = overlap.n_nodes(), n_particles = overlap.n_particles();
@@ -46,6 +52,10 @@ void check_sizes(const Overlap &overlap)
       overlap.shape_node.size() != overlap.shape_value.size() ||
       overlap.shape_node.size() != overlap.shape_gradient.size())
     fail("the shape function values are not in rows of particles");
+  for (std::size_t particle = 0; particle < n_particles; ++particle)
+    if (const std::size_t n = overlap.shape_offset[particle + 1] - overlap.shape_offset[particle]; n != 8)
+      fail("particle ", overlap.particle_id[particle], " has ", n,
+           " shape function values; take elements of degree 1, with 8 nodes");
   const auto is_node = [n_nodes](const int node) { return node >= 0 && static_cast<std::size_t>(node) < n_nodes; };
   if (!std::all_of(overlap.shape_node.begin(), overlap.shape_node.end(), is_node))
     fail("a shape function value names a node outside the ", n_nodes, " coupling nodes");
@@ -79,6 +89,16 @@ void check_particle(const Overlap &overlap, const std::size_t particle)
   }
   if (!(std::abs(sum - 1.) <= shape_tolerance))
     fail("the shape function values of ", name(), " sum to ", sum, " instead of 1; look for its element again");
+  const Eigen::Vector3d local = overlap.local_place(particle);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    double value = 0.125;
+    for (int axis = 0; axis < 3; ++axis)
+      value *= 1. + side(corner, axis) * local[axis];
+    if (!(std::abs(overlap.shape_value[overlap.shape_offset[particle] + corner] - value) <= shape_tolerance))
+      fail("the shape function values of ", name(),
+           " are not those of a trilinear element; give its nodes along each coordinate in turn");
+  }
   if (!((interpolated - position).norm() <= position_tolerance * extent))
     fail("the shape function values of ", name(), " belong to the place ", text(interpolated),
          "; look for its element again");
@@ -104,6 +124,15 @@ double Overlap::mean_diameter() const
   for (const double volume : particle_volume)
     sum += std::cbrt(6. * volume / std::numbers::pi);
   return sum / static_cast<double>(n_particles());
+}
+
+Eigen::Vector3d Overlap::local_place(const std::size_t particle) const
+{
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  for (int corner = 0; corner < 8; ++corner)
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] += side(corner, axis) * shape_value[shape_offset[particle] + corner];
+  return place;
 }
 
 void Overlap::validate() const

@@ -21,7 +21,8 @@ struct Overlap
   std::vector<Eigen::Vector3d> reference_position; ///< centre of each coupled particle [m]
 
   /// Values N_I(x_alpha) of the shape functions at the centres, particle by particle: those of particle alpha stand at
-  /// [shape_offset[alpha], shape_offset[alpha + 1]), 8 for a trilinear hexahedron.
+  /// [shape_offset[alpha], shape_offset[alpha + 1]), 8 of a trilinear hexahedron. Bits 1, 2, 4 of a node's place among
+  /// them say on which side it lies along each local coordinate.
   std::vector<std::size_t> shape_offset{0};
   std::vector<int> shape_node; ///< place of the node in `nodes`
   std::vector<double> shape_value;
@@ -31,8 +32,11 @@ struct Overlap
   std::size_t n_particles() const { return particle_id.size(); }
   double mean_diameter() const; ///< of spheres of the particles' volumes [m]
 
+  /// Local coordinates of a particle in its element, in [-1, 1], of which all shape values follow.
+  Eigen::Vector3d local_place(std::size_t particle) const;
+
   /// Throws ConfigError, naming the particle or the position of the node and the remedy, unless sizes fit,
-  /// every particle's shape values lie in [0, 1] (linear elements), sum to 1 and give back its position, their
+  /// every particle has 8 shape values of a trilinear element that sum to 1 and give back its position, their
   /// gradients give back the gradient of the position, and nodes are named once. Elements may be filled only in part.
   void validate() const;
 };

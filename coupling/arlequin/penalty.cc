@@ -48,9 +48,9 @@ void PenaltyCoupling::take(Overlap overlap)
   projection_ = std::make_unique<const CoarseProjection>(overlap, kind_); // looks whether it is a good one
   overlap_ = std::move(overlap);
   largest_node_ = *std::max_element(overlap_.nodes.begin(), overlap_.nodes.end());
-  particle_difference_.resize(overlap_.n_particles());
-  particle_work_.resize(overlap_.n_particles());
-  node_work_.resize(overlap_.n_nodes());
+  for (std::vector<Eigen::Vector3d> *values : {&moment_, &density_, &node_load_})
+    values->resize(overlap_.n_nodes());
+  largest_motion_.resize(projection_->blocks()->blocks().size());
   difference_.assign(overlap_.n_nodes(), Eigen::Vector3d::Zero());
   kept_.assign(overlap_.n_nodes(), Eigen::Vector3d::Zero());
 }
@@ -78,67 +78,51 @@ PenaltyState PenaltyCoupling::compute(const std::span<const Eigen::Vector3d> par
   if (particle_displacement.size() != n_particles || particle_force.size() != n_particles)
     fail(particle_displacement.size(), " displacements and ", particle_force.size(), " forces for ", n_particles,
          " coupled particles");
+  std::fill(particle_force.begin(), particle_force.end(), Eigen::Vector3d::Zero());
+  return compute([&](const std::size_t particle) -> const Eigen::Vector3d & { return particle_displacement[particle]; },
+                 fe_displacement,
+                 [&](const std::size_t particle, const Eigen::Vector3d &force) { particle_force[particle] += force; },
+                 fe_force);
+}
+
+void PenaltyCoupling::require_nodes(const std::span<const double> fe_displacement,
+                                    const std::span<const double> fe_force) const
+{
   if (fe_displacement.size() < 3 * (static_cast<std::size_t>(largest_node_) + 1) ||
       fe_force.size() != fe_displacement.size())
     fail(fe_displacement.size(), " displacements and ", fe_force.size(),
          " forces of the elements; one size is needed, for nodes up to number ", largest_node_);
-  return add_forces(particle_displacement, fe_displacement, particle_force, fe_force, Loads::all);
 }
 
-PenaltyState PenaltyCoupling::add_forces(const std::span<const Eigen::Vector3d> particle_displacement,
-                                         const std::span<const double> fe_displacement,
-                                         const std::span<Eigen::Vector3d> particle_force,
-                                         const std::span<double> fe_force, const Loads loads)
+/// From the particles' moments to the differences and the load densities, and to what these give to the nodes.
+/// @return energy stored [J]
+double PenaltyCoupling::load_nodes(const std::span<double> fe_force, const Loads loads)
 {
-  const std::size_t n_particles = overlap_.n_particles(), n_nodes = overlap_.n_nodes();
-
-  // Difference of the models at the particles, then its coarse part.
-  PenaltyState state;
-  for (std::size_t i = 0; i < n_nodes; ++i)
-    node_work_[i] = Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * overlap_.nodes[i]]);
-  projection_->interpolate(node_work_, particle_difference_);
-  for (std::size_t particle = 0; particle < n_particles; ++particle)
-  {
-    particle_difference_[particle] = particle_displacement[particle] - particle_difference_[particle];
-    state.largest_motion = std::max(state.largest_motion, particle_difference_[particle].norm());
-  }
-  projection_->project(particle_difference_, difference_);
-
-  // Equal and opposite forces on both models at the particles.
-  const auto load = [&](const auto &density)
-  {
-    for (std::size_t i = 0; i < n_nodes; ++i)
-      node_work_[i] = density(i);
-    projection_->interpolate(node_work_, particle_work_);
-  };
-  const auto energy_of_loads = [&]
-  {
-    double energy = 0.;
-    for (std::size_t particle = 0; particle < n_particles; ++particle)
-      energy += overlap_.particle_volume[particle] * particle_difference_[particle].dot(particle_work_[particle]);
-    return energy;
-  };
+  difference_ = moment_;
+  projection_->divide(difference_);
+  const bool keeps = loads == Loads::all && n_renewals_ > 0;
   double stored = 0.;
-  if (loads == Loads::all && n_renewals_ > 0)
+  for (std::size_t i = 0; i < overlap_.n_nodes(); ++i)
   {
-    load([&](const std::size_t i) -> Eigen::Vector3d { return kept_[i] + 0.5 * penalty_ * difference_[i]; });
-    stored = energy_of_loads();
-    load([&](const std::size_t i) -> Eigen::Vector3d { return kept_[i] + penalty_ * difference_[i]; });
+    const Eigen::Vector3d half = 0.5 * penalty_ * difference_[i];
+    density_[i] = keeps ? Eigen::Vector3d(kept_[i] + half) : half;
+    stored += density_[i].dot(moment_[i]); // sum of V u.N^T (kept + epsilon r / 2) over the particles
+    density_[i] += half;
   }
-  else
-  {
-    load([&](const std::size_t i) -> Eigen::Vector3d { return penalty_ * difference_[i]; });
-    stored = 0.5 * energy_of_loads();
-  }
-  for (std::size_t particle = 0; particle < n_particles; ++particle)
-    particle_force[particle] = -overlap_.particle_volume[particle] * particle_work_[particle];
-  for (std::size_t i = 0; i < n_nodes; ++i)
-    state.largest_difference = std::max(state.largest_difference, difference_[i].norm());
-  projection_->collect(particle_force, node_work_);
-  for (std::size_t i = 0; i < n_nodes; ++i)
-    Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * overlap_.nodes[i]) -= node_work_[i];
-  state.energy = stored + edge_.add_forces(particle_displacement, fe_displacement, particle_force, fe_force,
-                                           loads == Loads::all ? HeldEdge::Loads::all : HeldEdge::Loads::springs);
+  projection_->multiply(density_, node_load_); // opposite to the particles' forces, at the same places
+  for (std::size_t i = 0; i < overlap_.n_nodes(); ++i)
+    Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * overlap_.nodes[i]) += node_load_[i];
+  return stored;
+}
+
+PenaltyState PenaltyCoupling::state_of(const double stored, const double held, const Loads loads)
+{
+  PenaltyState state;
+  state.energy = stored + held;
+  for (const Eigen::Vector3d &r : difference_)
+    state.largest_difference = std::max(state.largest_difference, r.norm());
+  for (const double motion : largest_motion_)
+    state.largest_motion = std::max(state.largest_motion, motion);
   if (loads == Loads::all)
   {
     difference_energy_ = stored;
@@ -200,7 +184,10 @@ double PenaltyCoupling::largest_eigenvalue(const CoupledMasses &masses, const do
         std::copy_n(displacement.data(), 3, &fe_displacement[3 * overlap_.nodes[i - n_particles]]);
     }
     std::fill(fe_force.begin(), fe_force.end(), 0.);
-    add_forces(particle_displacement, fe_displacement, particle_force, fe_force, Loads::linear);
+    std::fill(particle_force.begin(), particle_force.end(), Eigen::Vector3d::Zero());
+    add_forces([&](const std::size_t i) -> const Eigen::Vector3d & { return particle_displacement[i]; },
+               fe_displacement, [&](const std::size_t i, const Eigen::Vector3d &force) { particle_force[i] += force; },
+               fe_force, Loads::linear);
 
     eigenvalue = 0.;
     for (std::size_t i = 0; i < n; ++i)

@@ -3,6 +3,9 @@
 #include "coupling/arlequin/held_edge.h"
 #include "coupling/arlequin/projection.h"
 
+#include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -62,6 +65,17 @@ public:
   PenaltyState compute(std::span<const Eigen::Vector3d> particle_displacement, std::span<const double> fe_displacement,
                        std::span<Eigen::Vector3d> particle_force, std::span<double> fe_force);
 
+  /// The same for particles wherever they are kept.
+  /// @param displacement displacement(particle) [m]; @param add_force add_force(particle, force) [N]: called from
+  /// several threads, each for particles of its own, and twice for a held one
+  template <std::invocable<std::size_t> Displacement, std::invocable<std::size_t, Eigen::Vector3d> AddForce>
+  PenaltyState compute(const Displacement &displacement, const std::span<const double> fe_displacement,
+                       const AddForce &add_force, const std::span<double> fe_force)
+  {
+    require_nodes(fe_displacement, fe_force);
+    return add_forces(displacement, fe_displacement, add_force, fe_force, Loads::all);
+  }
+
   /// All that a step depends on beside the overlap, by name; see dem/core/state.h.
   template <class Self, class Visit>
   static void visit_state(Self &self, Visit &visit)
@@ -92,9 +106,13 @@ private:
     linear ///< in the displacements: without what is kept and the dead loads of the edge
   };
 
-  PenaltyState add_forces(std::span<const Eigen::Vector3d> particle_displacement,
-                          std::span<const double> fe_displacement, std::span<Eigen::Vector3d> particle_force,
-                          std::span<double> fe_force, Loads loads);
+  /// Two passes over the particles: what they give to the nodes' differences, and what these give to them.
+  template <class Displacement, class AddForce>
+  PenaltyState add_forces(const Displacement &displacement, std::span<const double> fe_displacement,
+                          const AddForce &add_force, std::span<double> fe_force, Loads loads);
+  double load_nodes(std::span<double> fe_force, Loads loads);
+  PenaltyState state_of(double stored, double held, Loads loads);
+  void require_nodes(std::span<const double> fe_displacement, std::span<const double> fe_force) const;
   void take(Overlap overlap);
 
   Overlap overlap_;
@@ -108,7 +126,57 @@ private:
   int largest_node_;
 
   HeldEdge edge_;
-  std::vector<Eigen::Vector3d> particle_difference_, particle_work_, node_work_, difference_;
+  std::vector<Eigen::Vector3d> held_displacement_, held_force_;            // of the edge's particles
+  std::vector<Eigen::Vector3d> moment_, difference_, density_, node_load_; // at the nodes: N V u, r, g, A g
+  std::vector<double> largest_motion_;                                     // by block
 };
+
+template <class Displacement, class AddForce>
+PenaltyState PenaltyCoupling::add_forces(const Displacement &displacement,
+                                         const std::span<const double> fe_displacement, const AddForce &add_force,
+                                         const std::span<double> fe_force, const Loads loads)
+{
+  const ElementBlocks &blocks = *projection_->blocks();
+  blocks.sum_at_nodes(
+      [&](const std::size_t b, const ElementBlocks::Block &block)
+      {
+        const ElementBlocks::Eights field = ElementBlocks::coefficients(
+            block, [&](const int node)
+            { return Eigen::Map<const Eigen::Vector3d>(&fe_displacement[3 * overlap_.nodes[node]]); });
+        double largest_square = 0.;
+        const ElementBlocks::Eights moments =
+            blocks.moments_of(block,
+                              [&](const std::size_t particle, const ElementBlocks::Products &at)
+                              {
+                                const Padded difference = padded(displacement(particle)) - at.value_of(field);
+                                largest_square = std::max(largest_square, math::sum(difference * difference));
+                                return projection_->volume(particle) * difference;
+                              });
+        largest_motion_[b] = std::sqrt(largest_square);
+        return ElementBlocks::at_nodes(moments);
+      },
+      [&](const std::size_t node, const Eigen::Vector3d &sum) { moment_[node] = sum; });
+
+  const double stored = load_nodes(fe_force, loads);
+
+  blocks.for_each(
+      [&](std::size_t, const ElementBlocks::Block &block)
+      {
+        const ElementBlocks::Eights field = ElementBlocks::coefficients(
+            block, [&](const int node) -> const Eigen::Vector3d & { return density_[node]; });
+        for (std::size_t particle = block.begin; particle < block.end; ++particle)
+          add_force(particle, unpadded(-projection_->volume(particle) * blocks.products(particle).value_of(field)));
+      });
+
+  held_displacement_.resize(edge_.size());
+  held_force_.resize(edge_.size());
+  for (std::size_t k = 0; k < edge_.size(); ++k)
+    held_displacement_[k] = displacement(edge_.particles()[k]);
+  const double held = edge_.add_forces(held_displacement_, fe_displacement, held_force_, fe_force,
+                                       loads == Loads::all ? HeldEdge::Loads::all : HeldEdge::Loads::springs);
+  for (std::size_t k = 0; k < edge_.size(); ++k)
+    add_force(edge_.particles()[k], held_force_[k]);
+  return state_of(stored, held, loads);
+}
 
 } // namespace bergamo::coupling

@@ -16,6 +16,12 @@ namespace
 /// Least pivot over the diagonal entry of A: below, A counts as singular.
 constexpr double least_pivot = 1e-10;
 
+const Overlap &validated(const Overlap &overlap)
+{
+  overlap.validate();
+  return overlap;
+}
+
 } // namespace
 
 struct CoarseProjection::Solver : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>
@@ -27,42 +33,44 @@ CoarseProjection::CoarseProjection(CoarseProjection &&) noexcept = default;
 CoarseProjection::~CoarseProjection() = default;
 
 CoarseProjection::CoarseProjection(const Overlap &overlap, const Projection kind)
-    : volume_(overlap.particle_volume), inverse_lumped_(overlap.n_nodes(), 0.)
+    : volume_(validated(overlap).particle_volume), blocks_(std::make_shared<const ElementBlocks>(overlap))
 {
-  overlap.validate();
-
-  const auto each_value = [&](const auto &visit) // visit(particle, node, value)
+  sum_matrix();
+  for (std::size_t node = 0; node < n_nodes(); ++node)
   {
-    for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
-      for (std::size_t k = overlap.shape_offset[particle]; k < overlap.shape_offset[particle + 1]; ++k)
-        visit(static_cast<int>(particle), overlap.shape_node[k], overlap.shape_value[k]);
-  };
-  of_particle_ = {overlap.n_particles(), [&](const auto &put) {
-                    each_value([&](const int particle, const int node, const double n) { put(particle, {node, n}); });
-                  }};
-  of_node_ = {overlap.n_nodes(), [&](const auto &put) {
-                each_value([&](const int particle, const int node, const double n) { put(node, {particle, n}); });
-              }};
-  each_value([&](const int particle, const int node, const double n)
-             { inverse_lumped_[node] += n * volume_[particle]; });
-  for (double &value : inverse_lumped_)
-    value = value > 0. ? 1. / value : 0.; // a node that no grain reaches has no difference
-
+    const double sum = matrix_.row(static_cast<int>(node)).sum();
+    inverse_lumped_.push_back(sum > 0. ? 1. / sum : 0.); // a node that no grain reaches has no difference
+  }
   if (kind == Projection::consistent)
     factorize(overlap);
+}
+
+/// A from its blocks.
+void CoarseProjection::sum_matrix()
+{
+  using Eight = Eigen::Matrix<double, 8, 1>;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const ElementBlocks::Block &block : blocks_->blocks())
+  {
+    Eigen::Matrix<double, 8, 8> of_block = Eigen::Matrix<double, 8, 8>::Zero();
+    for (std::size_t particle = block.begin; particle < block.end; ++particle)
+    {
+      const std::array<double, 8> values = blocks_->shape_values(particle);
+      const Eigen::Map<const Eight> n(values.data());
+      of_block.noalias() += (volume_[particle] * n) * n.transpose();
+    }
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j < 8; ++j)
+        entries.emplace_back(block.nodes[i], block.nodes[j], of_block(i, j));
+  }
+  matrix_.resize(static_cast<int>(n_nodes()), static_cast<int>(n_nodes()));
+  matrix_.setFromTriplets(entries.begin(), entries.end());
 }
 
 void CoarseProjection::factorize(const Overlap &overlap)
 {
   const int n = static_cast<int>(n_nodes());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t particle = 0; particle < n_particles(); ++particle)
-    for (const ShapeValue &a : of_particle_[particle])
-      for (const ShapeValue &b : of_particle_[particle])
-        entries.emplace_back(a.at, b.at, a.value * volume_[particle] * b.value);
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-
+  Eigen::SparseMatrix<double> matrix = matrix_;
   auto solver = std::make_unique<Solver>(matrix);
   if (solver->info() != Eigen::Success) // a pivot of 0: go round it, to see below which one
   {
@@ -88,58 +96,42 @@ void CoarseProjection::factorize(const Overlap &overlap)
   solver_ = std::move(solver);
 }
 
-void CoarseProjection::apply_inverse(const Vectors node_values) const
+void CoarseProjection::divide(const Vectors sums) const
 {
+  assert(sums.size() == n_nodes());
   if (!solver_)
   {
-    parallel_for(n_nodes(), [&](const std::size_t node) { node_values[node] *= inverse_lumped_[node]; });
+    parallel_for(n_nodes(), [&](const std::size_t node) { sums[node] *= inverse_lumped_[node]; });
     return;
   }
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-  Eigen::Map<Rows> values(node_values.data()->data(), static_cast<Eigen::Index>(n_nodes()), 3);
+  Eigen::Map<Rows> values(sums.data()->data(), static_cast<Eigen::Index>(n_nodes()), 3);
   const Columns right_hand_side = values;
   values = solver_->solve(right_hand_side);
+}
+
+void CoarseProjection::multiply(const ConstVectors node_values, const Vectors product) const
+{
+  assert(node_values.size() == n_nodes() && product.size() == n_nodes());
+  parallel_for(n_nodes(),
+               [&](const std::size_t node)
+               {
+                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+                 for (Matrix::InnerIterator entry(matrix_, static_cast<int>(node)); entry; ++entry)
+                   sum += entry.value() * node_values[entry.col()];
+                 product[node] = sum;
+               });
 }
 
 void CoarseProjection::project(const ConstVectors particle_values, const Vectors node_values) const
 {
   assert(particle_values.size() == n_particles() && node_values.size() == n_nodes());
-  parallel_for(n_nodes(),
-               [&](const std::size_t node)
-               {
-                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-                 for (const ShapeValue &n : of_node_[node])
-                   sum += n.value * volume_[n.at] * particle_values[n.at];
-                 node_values[node] = sum;
-               });
-  apply_inverse(node_values);
-}
-
-void CoarseProjection::interpolate(const ConstVectors node_values, const Vectors particle_values) const
-{
-  assert(particle_values.size() == n_particles() && node_values.size() == n_nodes());
-  parallel_for(n_particles(),
-               [&](const std::size_t particle)
-               {
-                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-                 for (const ShapeValue &n : of_particle_[particle])
-                   sum += n.value * node_values[n.at];
-                 particle_values[particle] = sum;
-               });
-}
-
-void CoarseProjection::collect(const ConstVectors particle_values, const Vectors node_values) const
-{
-  assert(particle_values.size() == n_particles() && node_values.size() == n_nodes());
-  parallel_for(n_nodes(),
-               [&](const std::size_t node)
-               {
-                 Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-                 for (const ShapeValue &n : of_node_[node])
-                   sum += n.value * particle_values[n.at];
-                 node_values[node] = sum;
-               });
+  std::vector<Eigen::Vector3d> weighted(particle_values.begin(), particle_values.end());
+  for (std::size_t particle = 0; particle < n_particles(); ++particle)
+    weighted[particle] *= volume_[particle];
+  blocks_->collect(weighted, node_values);
+  divide(node_values);
 }
 
 } // namespace bergamo::coupling

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "coupling/arlequin/overlap.h"
-#include "dem/core/rows.h"
+#include "coupling/arlequin/element_blocks.h"
+
+#include <Eigen/SparseCore>
 
 #include <memory>
 #include <span>
@@ -40,35 +41,31 @@ public:
   CoarseProjection(CoarseProjection &&) noexcept;
   ~CoarseProjection();
 
-  std::size_t n_nodes() const { return of_node_.size(); }
+  std::size_t n_nodes() const { return blocks_->n_nodes(); }
   std::size_t n_particles() const { return volume_.size(); }
+  double volume(const std::size_t particle) const { return volume_[particle]; } ///< [m^3]
+  const std::shared_ptr<const ElementBlocks> &blocks() const { return blocks_; }
 
   /// Pi: particle values to node values.
   void project(ConstVectors particle_values, Vectors node_values) const;
 
-  /// N^T: values of the finite element field at the particles.
-  void interpolate(ConstVectors node_values, Vectors particle_values) const;
-
-  /// N: sums of particle forces to the nodes of their elements.
-  void collect(ConstVectors particle_values, Vectors node_values) const;
+  /// The same on nodes, for who goes over the particles by himself. @{
+  void divide(Vectors sums) const; ///< sums of N V over the particles to values of Pi, by A or A*
+  void multiply(ConstVectors node_values, Vectors product) const; ///< by A = N V N^T, whatever the kind
+  /// @}
 
 private:
   struct Solver;
+  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  void sum_matrix();
+  void factorize(const Overlap &overlap);
 
   std::vector<double> volume_;
-
-  struct ShapeValue
-  {
-    int at; // a particle or a node
-    double value;
-  };
-  Rows<ShapeValue> of_particle_, of_node_; // at the nodes of each particle, at the particles of each node
-
-  std::vector<double> inverse_lumped_;   ///< 1 / A*_II [1/m^3]
-  std::unique_ptr<const Solver> solver_; ///< of A; none for the lumped kind
-
-  void factorize(const Overlap &overlap);
-  void apply_inverse(Vectors node_values) const;
+  std::shared_ptr<const ElementBlocks> blocks_;
+  Matrix matrix_;                        // A [m^3]
+  std::vector<double> inverse_lumped_;   // 1 / A*_II [1/m^3]
+  std::unique_ptr<const Solver> solver_; // of A; none for the lumped kind
 };
 
 } // namespace bergamo::coupling

@@ -1,9 +1,11 @@
 #pragma once
 
-#include "coupling/arlequin/overlap.h"
-#include "dem/core/rows.h"
+#include "coupling/arlequin/element_blocks.h"
 
 #include <Eigen/Core>
+
+#include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,8 +25,14 @@ namespace bergamo::coupling
 class WeightTransfer
 {
 public:
-  WeightTransfer() = default;
-  explicit WeightTransfer(const Overlap &overlap);
+  /// What the weights' gradient gives to a particle.
+  struct Load
+  {
+    Eigen::Vector3d force, torque; ///< [N], [N m]
+  };
+
+  /// @param nodes of the overlap, as it numbers them
+  WeightTransfer(std::shared_ptr<const ElementBlocks> blocks, std::vector<int> nodes);
 
   /// Adds the opposite of the forces [N] and torques [N m] that the weights' gradient gives to the coupled particles to
   /// those of the FE mesh (3 * node + component). Sum and moment balance to rounding; the same bits on any number of
@@ -32,15 +40,35 @@ public:
   void add_opposite(std::span<const Eigen::Vector3d> force, std::span<const Eigen::Vector3d> torque,
                     std::span<double> fe_force) const;
 
-private:
-  struct ShapeFunction
+  /// The same for who finds the loads on the way. @param load_on load_on(block, particle): Load, asked for once for
+  /// each particle, in their order within a block
+  template <class LoadOn>
+  void add_opposite(const LoadOn &load_on, const std::span<double> fe_force) const
   {
-    int particle;
-    double value;
-    Eigen::Vector3d gradient; // [1/m]
-  };
+    blocks_->sum_at_nodes(
+        [&](const std::size_t number, const ElementBlocks::Block &block)
+        {
+          std::array<Padded, ElementBlocks::longest> force, torque;
+          const std::size_t n = block.end - block.begin;
+          for (std::size_t k = 0; k < n; ++k)
+          {
+            const Load load = load_on(number, block.begin + k);
+            force[k] = padded(load.force);
+            torque[k] = padded(load.torque);
+          }
+          return node_loads(number, {force.data(), n}, {torque.data(), n});
+        },
+        [&](const std::size_t node, const Eigen::Vector3d &sum)
+        { Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * nodes_[node]) -= sum; });
+  }
+
+private:
+  /// Loads on the particles of a block, at the nodes of its element.
+  ElementBlocks::Eights node_loads(std::size_t block, std::span<const Padded> force,
+                                   std::span<const Padded> torque) const;
+
+  std::shared_ptr<const ElementBlocks> blocks_;
   std::vector<int> nodes_;
-  Rows<ShapeFunction> of_node_;
 };
 
 } // namespace bergamo::coupling

@@ -134,6 +134,8 @@ public:
   std::int64_t n_rebuilds() const { return n_renewals; } ///< renewals of the neighbours since the start
   std::int32_t index_of(const std::int64_t id) const { return index(id); } ///< place of a grain in the arrays
   bool has(const std::int64_t id) const { return index.has(id); }
+  /// Grows whenever grains may have changed their places in the arrays; not a part of the state.
+  std::int64_t n_orders() const { return index.n_orders(); }
 
   Particles particles;
   std::vector<PlaneWall> walls;

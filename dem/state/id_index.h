@@ -17,12 +17,16 @@ public:
   /// Throws ConfigError where an id occurs twice.
   void follow(const std::vector<std::int64_t> &ids)
   {
+    ++n_orders_;
     place.clear();
     place.reserve(ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i)
       if (!place.emplace(ids[i], static_cast<std::int32_t>(i)).second)
         throw ConfigError("two particles have the id " + std::to_string(ids[i]) + ": give each one its own");
   }
+
+  /// Grows whenever places may have changed.
+  std::int64_t n_orders() const { return n_orders_; }
 
   bool has(const std::int64_t id) const { return place.contains(id); }
 
@@ -37,6 +41,7 @@ public:
 
 private:
   std::unordered_map<std::int64_t, std::int32_t> place;
+  std::int64_t n_orders_ = 0;
 };
 
 } // namespace bergamo::dem

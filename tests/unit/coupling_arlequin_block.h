@@ -67,6 +67,32 @@ inline Overlap block(const int n, const int particles_per_element, const unsigne
   return overlap;
 }
 
+/// The same particles in elements whose nodes are moved at random by a sixth of an edge, so that no two edges of an
+/// element are parallel.
+inline Overlap distorted(Overlap overlap, const unsigned seed = 3)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(-0.0016, 0.0016);
+  for (Eigen::Vector3d &x : overlap.node_position)
+    x += Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+  for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
+  {
+    const std::size_t first = overlap.shape_offset[particle];
+    Eigen::Vector3d &place = overlap.reference_position[particle];
+    place.setZero();
+    Eigen::Matrix3d deformation = Eigen::Matrix3d::Zero(); // of the element, by the gradients that it had
+    for (std::size_t k = first; k < first + 8; ++k)
+    {
+      const Eigen::Vector3d &x = overlap.node_position[overlap.shape_node[k]];
+      place += overlap.shape_value[k] * x;
+      deformation += x * overlap.shape_gradient[k].transpose();
+    }
+    for (std::size_t k = first; k < first + 8; ++k)
+      overlap.shape_gradient[k] = deformation.inverse().transpose() * overlap.shape_gradient[k];
+  }
+  return overlap;
+}
+
 /// Length of the mesh's vectors of degrees of freedom.
 inline std::size_t n_dofs(const Overlap &overlap)
 {

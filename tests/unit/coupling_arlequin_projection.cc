@@ -76,7 +76,7 @@ TEST_CASE("a common homogeneous deformation leaves no difference")
   {
     const CoarseProjection projection(overlap, kind);
     Vectors difference(overlap.n_particles()), r(overlap.n_nodes());
-    projection.interpolate(nodes, difference);
+    projection.blocks()->interpolate(nodes, difference);
     for (std::size_t i = 0; i < difference.size(); ++i)
       difference[i] = particles[i] - difference[i];
     projection.project(difference, r);
@@ -99,7 +99,7 @@ TEST_CASE("both forms of the consistent difference are the same")
   const CoarseProjection projection(overlap, Projection::consistent);
   const Vectors particles = random_vectors(overlap.n_particles(), 3), nodes = random_vectors(overlap.n_nodes(), 4);
   Vectors difference(overlap.n_particles()), ours(overlap.n_nodes()), theirs(overlap.n_nodes());
-  projection.interpolate(nodes, difference);
+  projection.blocks()->interpolate(nodes, difference);
   for (std::size_t i = 0; i < difference.size(); ++i)
     difference[i] = particles[i] - difference[i];
   projection.project(difference, ours);
@@ -132,7 +132,7 @@ TEST_CASE("the consistent projection is the least squares fit")
   // Exact where the particles move by the ansatz, linear fields among them.
   const Vectors ansatz = random_vectors(overlap.n_nodes(), 7);
   Vectors particles(overlap.n_particles()), fit(overlap.n_nodes());
-  projection.interpolate(ansatz, particles);
+  projection.blocks()->interpolate(ansatz, particles);
   projection.project(particles, fit);
   for (std::size_t i = 0; i < fit.size(); ++i)
     CHECK((fit[i] - ansatz[i]).norm() < 1e-11);
@@ -144,10 +144,10 @@ TEST_CASE("the consistent projection is the least squares fit")
   particles = random_vectors(overlap.n_particles(), 8);
   projection.project(particles, fit);
   Vectors error(overlap.n_particles()), normal(overlap.n_nodes());
-  projection.interpolate(fit, error);
+  projection.blocks()->interpolate(fit, error);
   for (std::size_t i = 0; i < error.size(); ++i)
     error[i] = overlap.particle_volume[i] * (particles[i] - error[i]);
-  projection.collect(error, normal);
+  projection.blocks()->collect(error, normal);
   CHECK(largest(normal) < 1e-12 * largest(error));
 }
 
@@ -157,8 +157,8 @@ TEST_CASE("the sums of particle forces at the nodes are the transpose of the int
   const Vectors x = random_vectors(overlap.n_particles(), 5), f = random_vectors(overlap.n_nodes(), 6);
   Vectors on_nodes(overlap.n_nodes()), on_particles(overlap.n_particles());
   const CoarseProjection projection(overlap, Projection::lumped);
-  projection.collect(x, on_nodes);
-  projection.interpolate(f, on_particles);
+  projection.blocks()->collect(x, on_nodes);
+  projection.blocks()->interpolate(f, on_particles);
   CHECK(dot(on_nodes, f) == Approx(dot(x, on_particles)).epsilon(1e-11));
 }
 

@@ -32,6 +32,11 @@ Eigen::Vector3d at_node(const Overlap &overlap, const std::vector<double> &fe_fo
   return Eigen::Map<const Eigen::Vector3d>(&fe_force[3 * overlap.nodes[node]]);
 }
 
+WeightTransfer transfer_of(const Overlap &overlap)
+{
+  return {std::make_shared<const ElementBlocks>(overlap), overlap.nodes};
+}
+
 } // namespace
 
 TEST_CASE("what is taken from grains and given to nodes has the same sum and the same moment")
@@ -39,7 +44,7 @@ TEST_CASE("what is taken from grains and given to nodes has the same sum and the
   const Overlap overlap = test::block(2, 9);
   const Loads loads(overlap);
   std::vector<double> fe_force(test::n_dofs(overlap), 0.);
-  WeightTransfer(overlap).add_opposite(loads.force, loads.torque, fe_force);
+  transfer_of(overlap).add_opposite(loads.force, loads.torque, fe_force);
 
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   double size = 0., turning = 0.;
@@ -69,7 +74,7 @@ TEST_CASE("a couple on a grain moves the nodes like a spin")
   const Loads loads(overlap);
   const std::vector<Eigen::Vector3d> none(overlap.n_particles(), Eigen::Vector3d::Zero());
   std::vector<double> fe_force(test::n_dofs(overlap), 0.);
-  WeightTransfer(overlap).add_opposite(none, loads.torque, fe_force);
+  transfer_of(overlap).add_opposite(none, loads.torque, fe_force);
   Eigen::Matrix3d gradient;
   gradient << 0.3, -0.2, 0.5, 0.7, 0.1, -0.4, 0.6, 0.9, -0.8;
   const Eigen::Vector3d curl(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
@@ -93,7 +98,7 @@ TEST_CASE("a transfer has the same bits on any number of threads")
   {
     const Threads threads(n_threads);
     std::vector<double> fe_force(test::n_dofs(overlap), 0.);
-    WeightTransfer(overlap).add_opposite(loads.force, loads.torque, fe_force);
+    transfer_of(overlap).add_opposite(loads.force, loads.torque, fe_force);
     return fe_force;
   };
   const std::vector<double> one = forces(1);

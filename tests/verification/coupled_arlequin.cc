@@ -73,7 +73,7 @@ void displace(TwoScaleModel &model, const Vec3 &translation, const Mat3 &gradien
 double largest_coupling_force(const TwoScaleModel &model)
 {
   double largest = 0.;
-  for (const auto &f : model.particle_forces())
+  for (const auto &f : model.grains()->particles.external_force)
     largest = std::max(largest, f.norm());
   for (const double f : model.body()->external_force())
     largest = std::max(largest, std::abs(f));
@@ -121,7 +121,7 @@ TEST_CASE("coupling forces sum to zero over both models, whatever the displaceme
 
   Vec3 sum = Vec3::Zero();
   double size = 0.;
-  for (const auto &f : model.particle_forces())
+  for (const auto &f : model.grains()->particles.external_force)
   {
     sum += f;
     size += f.norm();

@@ -210,8 +210,8 @@ TEST_CASE("a body between two packings: each overlap keeps the balance of forces
   model.compute_forces();
   Vec3 sum = Vec3::Zero();
   double size = 0.;
-  for (const ArlequinCoupling *overlap : {&over, &under})
-    for (const Vec3 &force : overlap->particle_forces())
+  for (const GrainsMover *grains : {&upper, &lower})
+    for (const Vec3 &force : grains->simulation().particles.external_force)
     {
       sum += force;
       size += force.norm();
@@ -226,4 +226,44 @@ TEST_CASE("a body between two packings: each overlap keeps the balance of forces
   CHECK(steps.movers[0].couplings.size() == 2);
   CHECK(steps.combined() < steps.couplings[0].step);
   CHECK_THROWS_WITH(model.step(2. * time_step), Catch::Contains("theirs is"));
+}
+
+TEST_CASE("grains and bodies may come to a model in any order: the same bits")
+{
+  // Grains over a body that shares a layer with them, and a second body.
+  const auto end_of = [](const bool grains_come_first)
+  {
+    Model model;
+    GrainsMover *grains = nullptr;
+    SolidMover *body = nullptr, *other = nullptr;
+    const auto add_grains = [&]
+    {
+      grains = &model.add(
+          std::make_unique<GrainsMover>(grains_in({Vec3(0., 0., layer), Vec3(edge, edge, 3. * layer)}, false)));
+    };
+    const auto add_bodies = [&]
+    {
+      other = &model.add(std::make_unique<SolidMover>(
+          body_in({Vec3(0., 0., 4. * layer), Vec3(edge, edge, 5. * layer)}, {2, 2, 1}, sand)));
+      body = &model.add(
+          std::make_unique<SolidMover>(body_in({Vec3(0., 0., 0.), Vec3(edge, edge, 2. * layer)}, {3, 3, 2}, strong)));
+    };
+    grains_come_first ? (add_grains(), add_bodies()) : (add_bodies(), add_grains());
+    const std::vector<double> weight = weights_above(body->solid(), 2. * layer);
+    const std::vector<Vec3> places = dem::positions_by_id(grains->simulation().particles);
+    model.add(std::make_unique<ArlequinCoupling>(*grains, *body, CouplingParameters(), OverlapPlace{weight, places}));
+    const double stable = model.stable_steps().combined();
+    for (int k = 0; k < 300; ++k)
+      model.step(time_step);
+    std::vector<double> state = state_of(grains->simulation());
+    for (const SolidMover *mover : {body, other})
+    {
+      const std::vector<double> of_body = state_of(std::as_const(*mover).body());
+      state.insert(state.end(), of_body.begin(), of_body.end());
+    }
+    state.push_back(stable);
+    return state;
+  };
+  const std::vector<double> one = end_of(true);
+  CHECK(end_of(false) == one);
 }
