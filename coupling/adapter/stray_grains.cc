@@ -25,7 +25,8 @@ StrayGrains::StrayGrains(const dem::Particles &particles, const std::span<const 
 bool StrayGrains::may_have_come(const dem::Simulation &grains) const
 {
   for (std::size_t k = 0; k < id_.size(); ++k)
-    if ((grains.particles.position[grains.index_of(id_[k])] - place_[k]).squaredNorm() > reach_[k] * reach_[k])
+    if (grains.has(id_[k]) &&
+        (grains.particles.position[grains.index_of(id_[k])] - place_[k]).squaredNorm() > reach_[k] * reach_[k])
       return true;
   return false;
 }
