@@ -5,7 +5,9 @@ For every seed the same sand settles in the same box; it is penetrated as it is,
 sizes cut out of it and elements beyond. What differs is the largest difference of the head's resistance and the mean one
 (root of the mean square) over the largest resistance of grains alone, as they are and smoothed over a tenth of the pile's
 way, as single grains that slip make most of the difference from moment to moment; and the work of the pile. Grains are
-chaotic: how far grains alone differ from themselves with steps of another length is what no model can be nearer than.
+chaotic: how far grains alone differ from themselves with steps of another length is what no model can be nearer than. So
+the differences are given, too, of the way before these two part by a twentieth of the largest resistance: what is left
+there is the model's.
 
 Writes FOLDER/domains.csv and FOLDER/plots/domains.png and prints the table. Runs that are finished are not run again.
 Further settings NAME=VALUE of the driver hold for all runs.
@@ -25,6 +27,7 @@ import studies
 
 BLOCKS = {"small": (0.016, 0.0125), "middle": (0.022, 0.0125), "large": (0.03, 0.0145)}  # width and depth [m]
 ANOTHER_STEP = 5.5e-6  # beside 6e-6 of the parameter file [s]
+PARTED = 0.05  # of the largest resistance
 SMOOTHED_OVER = 0.1  # of the way
 
 
@@ -35,17 +38,24 @@ def smoothed(history):
     return np.array([force[np.abs(way - w) <= width / 2].mean() for w in way])
 
 
-def differences(history, alone):
-    """Largest and mean difference of the resistance, as it is and smoothed, over the largest of grains alone, and that of
-    the pile's work [%]; none of a run that has ended early."""
+def differences(history, alone, until=np.inf):
+    """Largest and mean difference of the resistance up to a way [m], as it is and smoothed, over the largest of grains
+    alone up to there, and that of the pile's work [%]; none of a run that has ended early."""
     if history["way_m"][-1] < 0.999 * alone["way_m"][-1]:
         return None
-    found = []
+    found, way = [], alone["way_m"]
+    here = lambda values: np.interp(way, history["way_m"], values)[way <= until]  # of another step samples lie elsewhere
     for value in (lambda h: h["head_resistance_N"], smoothed):
-        here = np.interp(alone["way_m"], history["way_m"], value(history))  # samples of another step lie elsewhere
-        difference, scale = here - value(alone), np.abs(value(alone)).max()
+        difference, scale = here(value(history)) - value(alone)[way <= until], np.abs(value(alone)[way <= until]).max()
         found += [100 * np.abs(difference).max() / scale, 100 * np.sqrt((difference**2).mean()) / scale]
-    return found + [100 * (history["pile_work_J"][-1] / alone["pile_work_J"][-1] - 1)]
+    return found + [100 * (here(history["pile_work_J"])[-1] / alone["pile_work_J"][way <= until][-1] - 1)]
+
+
+def parting(again, alone):
+    """Way at which grains alone and the same with another step part [m]."""
+    force = alone["head_resistance_N"]
+    apart = np.abs(np.interp(alone["way_m"], again["way_m"], again["head_resistance_N"]) - force) > PARTED * force.max()
+    return alone["way_m"][max(0, np.argmax(apart) - 1)] if apart.any() else np.inf
 
 
 def timed_run(program, folder, settings):
@@ -68,16 +78,22 @@ def measure(program, folder, seeds, common):
         kinds |= {f"{name} block": {"Model/kind": "two-scale", "Model/block width": width, "Model/block depth": depth}
                   for name, (width, depth) in BLOCKS.items()}
         folders = {kind: folder / f"{kind}-{seed}".replace(" ", "-") for kind in kinds}
-        for kind, settings in kinds.items():
-            is_done = timed_run(program, folders[kind], {**common, **settings, "Sand/seed": seed})
+        are_done = {kind: timed_run(program, folders[kind], {**common, **settings, "Sand/seed": seed})
+                    for kind, settings in kinds.items()}
+        for kind, is_done in are_done.items():
             summary = run_data.read_summary(folders[kind])
-            if not is_done:
-                rows.append([kind, seed, *[""] * 10])
+            if not (is_done and are_done["grains alone"] and are_done["grains another step"]):
+                rows.append([kind, seed, *[""] * 16])
                 continue
-            found = differences(run_data.read_history(folders[kind]), run_data.read_history(folders["grains alone"]))
+            history, alone, again = (run_data.read_history(folders[name])
+                                     for name in (kind, "grains alone", "grains another step"))
+            until = parting(again, alone)
+            found = [value for some in (differences(history, alone), differences(history, alone, until))
+                     for value in some or [np.nan] * 5]
+            time_file = folders[kind] / "processor_time.txt"
             rows.append([kind, seed, summary["particles"], summary.get("elements", 0),
-                         *([f"{value:.2f}" for value in found] if found else [""] * 5), f"{summary['wall_time_s']:.1f}",
-                         (folders[kind] / "processor_time.txt").read_text().strip(),
+                         *(f"{value:.2f}" for value in found), f"{1e3 * until:.2f}", f"{summary['wall_time_s']:.1f}",
+                         time_file.read_text().strip() if time_file.exists() else "",
                          f"{summary['energy_residual']:.2g}"])
     return rows
 
@@ -86,8 +102,10 @@ def write_table(rows, path):
     with open(path, "w", newline="") as file:
         table = csv.writer(file)
         table.writerow(["ground", "seed", "grains", "elements", "largest_percent", "mean_percent",
-                        "smoothed_largest_percent", "smoothed_mean_percent", "work_percent", "wall_time_s", "processor_time_s",
-                        "energy_residual"])
+                        "smoothed_largest_percent", "smoothed_mean_percent", "work_percent",
+                        *(f"{name}_percent_before_parting" for name in ("largest", "mean", "smoothed_largest",
+                                                                        "smoothed_mean", "work")),
+                        "parting_mm", "wall_time_s", "processor_time_s", "energy_residual"])
         table.writerows(rows)
 
 

@@ -34,7 +34,8 @@ def draw_resistance(folder):
     force.set_xlabel("resistance in N")
     pressure.plot(history["tip_pressure_Pa"] / 1e3, depth, color=COLOURS[0])
     pressure.set_xlabel("pressure on the tip in kPa")
-    for name, label, colour in (("pile_work_J", "work of the pile", COLOURS[6]), ("energy_friction_loss_J", "friction", COLOURS[1]),
+    for name, label, colour in (("pile_work_J", "work of the pile", COLOURS[6]),
+                                ("energy_friction_loss_J", "friction", COLOURS[1]),
                                 ("energy_plastic_loss_J", "plastic flow of the elements", COLOURS[0])):
         if name in history:
             energy.plot(1e6 * history[name], depth, color=colour, label=label)

@@ -162,7 +162,7 @@ TEST_CASE("an overlap stays where grains and elements go together, and where gra
     return model.coupling()->n_renewals() - before;
   };
   shift({0., 0., -0.2 * diameter}); // grains come where elements were in their reference configuration
-  CHECK(renewals_of(5) == 1); // grains outside of the overlap may have come into elements; then all is known
+  CHECK(renewals_of(5) == 1);       // grains outside of the overlap may have come into elements; then all is known
   CHECK(renewals_of(5) == 0);
 
   const std::vector<int> &nodes = model.coupling()->overlap().nodes;
