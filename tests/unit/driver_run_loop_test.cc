@@ -174,10 +174,11 @@ TEST_CASE("a stage begins at step 0, and its time may begin anew")
   std::vector<std::int64_t> steps;
   for (const double start : {0., 0., 1.})
   {
+    CHECK(loop.begins_stage());
     int n = 0;
     CHECK(loop.run({.time = [&] { return start + n * 0.1; },
                     .is_last = [&] { return n == 2; },
-                    .compute = [] {},
+                    .compute = [&] { CHECK(loop.begins_stage() == (n == 0)); },
                     .move = [&] { ++n; }},
                    {{at_times({0}), [&] { steps.push_back(loop.step()); }}}));
   }

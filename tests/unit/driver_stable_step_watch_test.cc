@@ -1,5 +1,7 @@
 #include "drivers/common/progress.h"
+#include "drivers/common/run/snapshot.h"
 #include "drivers/common/run/stable_step_watch.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -27,4 +29,20 @@ TEST_CASE("a step beyond the stable one is warned of once, and the smallest stab
   watch.look(1e-6, 2e-6, progress);
   CHECK(stream.str() == first);
   CHECK(watch.smallest() == 0.25e-6);
+}
+
+TEST_CASE("the smallest stable step is that of the whole run, also after a restart")
+{
+  std::ostringstream stream;
+  ProgressOptions options;
+  options.stream = &stream;
+  Progress progress(options);
+  StableStepWatch before("Loading/time step"), after("Loading/time step");
+  before.look(1e-6, 2e-6, progress);
+  TemporaryFolder folder;
+  const Snapshot snapshot(folder / "s.h5", "test", "");
+  snapshot.write([&](StateVisitor &v) { before.visit(v); });
+  snapshot.read([&](StateVisitor &v) { after.visit(v); });
+  after.look(1e-6, 3e-6, progress);
+  CHECK(after.smallest() == 2e-6);
 }
