@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
+
 using namespace bergamo::driver;
 
 namespace
@@ -70,6 +72,16 @@ TEST_CASE("a trigger of the wall clock is due when its interval has passed since
   CHECK_FALSE(trigger({}));
   clock = 123;
   CHECK(trigger({}));
+}
+
+TEST_CASE("the wall clock counts seconds on a clock that is never set back")
+{
+  const auto now = [] { return std::chrono::steady_clock::now().time_since_epoch(); };
+  const std::chrono::duration<double> before = now();
+  const double clock = wall_clock();
+  const std::chrono::duration<double> after = now();
+  CHECK(before.count() <= clock);
+  CHECK(clock <= after.count());
 }
 
 TEST_CASE("either asks both triggers, so that each keeps its own account")
