@@ -83,7 +83,7 @@ def draw_section(folder):
     pile = segments_of(cut_at(surfaces, 0))
     elements = front_of(continuum) if continuum else ([], [], [], [])
     figure, panels = run_data.new_panels(3, 1)
-    figure.set_size_inches(9, 13)
+    figure.set_size_inches(9, 11)
     deciles = np.linspace(0, 1e3 * height.max(), 11)  # bands of the height at first show how the ground has moved
     band = lambda values: np.digitize(values, deciles) % 2 + 0.5 * np.digitize(values, deciles) / len(deciles)
     for axes, values, of_elements, colours, limits, label in (
