@@ -82,9 +82,9 @@ class Results(Case):
         two, alone = self.figures("two", at_rest), self.figures("alone", at_rest + GRAINS_ALONE)
         self.assertEqual(two["pile_work_J"], 0)
         self.assertEqual(max(row["head_resistance_N"] for row in self.table("two")), 0)
-        share = 1e-3  # of a grain: what the settled sand swings by in the time, and elements with it
-        for figures in (two, alone):
-            self.assertLess(figures["drift_over_grain"], share)
+        # Of a grain. Settled sand goes on swinging; the cut and the elements may add a thousandth.
+        self.assertLess(alone["drift_over_grain"], 5e-3)
+        self.assertLess(two["drift_over_grain"], alone["drift_over_grain"] + 1e-3)
 
     def test_force(self):
         """A pile that its head's force drives: the force is as given, the pile goes down, on two threads alike."""
