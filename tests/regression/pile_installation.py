@@ -67,10 +67,11 @@ class Results(Case):
         for name in figures:
             self.assertAlmostEqual(-rows[name][0]["bottom_force_N"], weight, delta=0.15 * weight)
         # No grain between pile and overlap knows of it before a force has come there and back. Later the way of sliding
-        # grains differs; what differs by as much as it meets at most would be another sand.
+        # grains differs, and a pile of some grains' width feels each; the work that it takes is alike.
         largest = max(row["head_resistance_N"] for row in rows["alone"])
-        for of_two, of_alone in zip(rows["two"], rows["alone"]):
-            self.assertAlmostEqual(of_two["head_resistance_N"], of_alone["head_resistance_N"], delta=0.6 * largest)
+        ratio = rows["two"][-1]["pile_work_J"] / rows["alone"][-1]["pile_work_J"]
+        self.assertGreater(ratio, 0.5)
+        self.assertLess(ratio, 2)
         first = next(k for k, row in enumerate(rows["alone"]) if row["head_resistance_N"] > 0.05 * largest)
         self.assertAlmostEqual(rows["two"][first]["head_resistance_N"], rows["alone"][first]["head_resistance_N"],
                                delta=0.05 * rows["alone"][first]["head_resistance_N"])
@@ -134,7 +135,7 @@ class BadInput(Case):
                                ("Model/element size=1e-3", ("Model/element size is 0.001 m", "mean grain")),
                                ("Model/growth=0.5", ("Model/growth",)),
                                ("Coupling/penalty=-1", ("Coupling/penalty",)),
-                               ("Continuum/Young's modulus=1e11", ("Pile/time step is 8e-06 s", "elements"))):
+                               ("Continuum/Young's modulus=1e11", ("Pile/time step is 6e-06 s", "elements"))):
             with self.subTest(setting):
                 self.assert_refused([setting], *words)
 
