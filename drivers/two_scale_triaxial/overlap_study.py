@@ -25,11 +25,12 @@ VARIANTS = {
                   for per_edge, layers, n, step in ((8, 4, 1, 6e-8), (5, 3, 1, 1e-7), (4, 2, 1, 1e-7), (5, 3, 2, 1.2e-7),
                                                     (4, 3, 2, 1.2e-7), (5, 4, 3, 1.2e-7), (10, 9, 8, 8e-8))},
     "elements": {f"{n} elements an edge": {"Model/elements per edge": n, "Model/continuum layers": layers,
-                                           "Model/overlap layers": overlap}
-                 for n, layers, overlap in ((4, 3, 2), (5, 3, 2), (7, 4, 3))},
+                                           "Model/overlap layers": overlap} for n, layers, overlap in ((5, 3, 2), (7, 4, 3))},
     "projection": {"consistent": {"Coupling/projection": "consistent"}},
     "penalty": {f"penalty {value:g}": {"Coupling/penalty": value} for value in (1e13, 1e14, 1e15, 1e16)},
-    "weight": {"smooth": {"Model/weight": "smooth"}},
+    # in two layers both shapes are the same, by nodal values of 0, 1/2, 1
+    "weight": {f"{shape} in three layers": {"Model/weight": shape, "Model/overlap layers": 3, "Model/continuum layers": 4}
+               for shape in ("linear", "smooth")},
     "least weight": {f"least weight {value:g}": {"Coupling/least weight": value} for value in (0.01, 0.05, 0.1, 0.2)},
     "edge": {f"edge {depth:g}": {"Coupling/edge depth": depth} for depth in (0, 1, 1.5, 2)},
     "edge stiffness": {f"edge stiffness {value:g}": {"Coupling/edge stiffness": value} for value in (1e15, 1e16, 1e17)},
