@@ -16,6 +16,9 @@ enum class IntruderKind
   pile   ///< plane strain: from the box's front to its back
 };
 
+/// Number of an intruder's material, after those of grains and walls.
+inline constexpr std::int32_t intruder_material = 2;
+
 /// Parts of an intruder's surface.
 inline constexpr std::int32_t tip_part = 0, shaft_part = 1;
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "coupling/adapter/grains_mover.h"
-#include "coupling/adapter/rigid_mover.h"
-#include "coupling/model/model.h"
+#include "drivers/common/run/placed_intruder.h"
 #include "drivers/common/run/state_visitor.h"
 #include "drivers/penetration/parameters.h"
 
@@ -27,15 +25,15 @@ public:
   /// @}
 
   const dem::Simulation &sand() const { return grains->simulation(); }
-  const dem::SurfaceParts &parts() const { return tip_and_shaft; }
+  const dem::SurfaceParts &parts() const { return intruder.parts; }
   const Vec3 &start_place(const std::int64_t id) const { return start_places[id]; } ///< of a grain [m]
-  double lowest() const { return intruder->body().centre()[2]; }                    ///< height of the tip [m]
+  double lowest() const { return intruder.mover->body().centre()[2]; }              ///< height of the tip [m]
   double stable_step() const { return model.stable_steps().combined(); }            ///< [s]
 
   /// Between compute() and move().
   /// @{
-  double drive_force() const { return intruder->body().guide_force()[2]; } ///< that keeps the speed, upwards [N]
-  double drive_work() const { return intruder->body().work(); }            ///< done by it since the start [J]
+  double drive_force() const { return intruder.mover->body().guide_force()[2]; } ///< that keeps the speed, upwards [N]
+  double drive_work() const { return intruder.mover->body().work(); }            ///< done by it since the start [J]
   double energy_balance() const; ///< of grains, contacts and all work done on them [J]
   /// @}
 
@@ -45,8 +43,7 @@ private:
   const PenetrationParameters &parameters;
   coupling::Model model;
   coupling::GrainsMover *grains = nullptr;
-  coupling::RigidMover *intruder = nullptr;
-  dem::SurfaceParts tip_and_shaft;
+  PlacedIntruder intruder;
   std::vector<Vec3> start_places; // by id [m]
 };
 

@@ -46,7 +46,4 @@ struct PenetrationParameters
   double speed_at(double time) const; ///< time since the intruder is there [s]; downwards [m/s]
 };
 
-/// Number of the intruder's material among those of the grains.
-inline constexpr std::int32_t intruder_material = 2;
-
 } // namespace bergamo::driver

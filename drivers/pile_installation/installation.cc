@@ -1,10 +1,8 @@
 #include "drivers/pile_installation/installation.h"
 
-#include "coupling/adapter/surface_contact.h"
-#include "dem/core/error.h"
+#include "drivers/common/run/joined_start.h"
 #include "drivers/common/run/visit_models.h"
 #include "drivers/pile_installation/ground_body.h"
-#include "fe_dealii/equilibrium/static_equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +33,7 @@ Installation::Installation(const InstallationParameters &p, std::unique_ptr<dem:
     require_below(body_steps->stable().time_step, p.simulation.time_step);
     displacement_at_start.assign(model.body()->displacement().size(), 0.);
   }
-  add_pile();
+  pile = place_intruder(model.parts(), *model.grains_mover(), p.make_pile(begun.sand.height), "pile");
 }
 
 void Installation::hold_elements()
@@ -54,35 +52,11 @@ void Installation::join()
   model.join(parameters.coupling, weight, begun.reference_by_id);
 }
 
-void Installation::add_pile()
-{
-  Intruder made = parameters.make_pile(begun.sand.height);
-  tip_and_shaft = std::move(made.parts);
-  pile = &model.parts().add(std::make_unique<coupling::RigidMover>(made.body, "pile"));
-  if (model.grains()->surfaces.empty()) // else it was stored with the grains
-  {
-    dem::Surface surface = coupling::surface_of(pile->body());
-    surface.material = pile_material;
-    model.grains()->add_surface(std::move(surface));
-  }
-  model.parts().add(std::make_unique<coupling::SurfaceContact>(*model.grains_mover(), *pile, tip_and_shaft.surface));
-}
-
 void Installation::settle(Progress &progress)
 {
   if (!model.overlap())
     return;
-  model.compute_forces();
-  try
-  {
-    fe::find_equilibrium(*model.body());
-  }
-  catch (const RunError &)
-  {
-    progress.warn("the elements do not bear what the grains of the overlap put on them from place to place: they start "
-                  "with the mean stresses of sand at rest, and yield; strengthen the material or take larger elements");
-  }
-  model.overlap()->begin();
+  start_at_rest(model, progress);
   const auto displacement = std::as_const(*model.body()).displacement();
   displacement_at_start.assign(displacement.begin(), displacement.end());
   model.grains()->reset_accounts();
@@ -92,12 +66,12 @@ void Installation::compute(const double time)
 {
   const double step = parameters.simulation.time_step;
   if (parameters.drive == PileDrive::speed)
-    pile->body().guide().velocity[2] = -parameters.speed_at(time + 0.5 * step);
+    pile.mover->body().guide().velocity[2] = -parameters.speed_at(time + 0.5 * step);
   model.compute_forces();
   if (parameters.drive == PileDrive::force)
   {
     applied_force = parameters.force_at(time);
-    pile->body().add_force({0., 0., -applied_force}, pile->body().centre());
+    pile.mover->body().add_force({0., 0., -applied_force}, pile.mover->body().centre());
   }
   if (body_steps)
     body_steps->require_stable(step);
@@ -106,12 +80,12 @@ void Installation::compute(const double time)
 
 double Installation::head_force() const
 {
-  return parameters.drive == PileDrive::speed ? -pile->body().guide_force()[2] : applied_force;
+  return parameters.drive == PileDrive::speed ? -pile.mover->body().guide_force()[2] : applied_force;
 }
 
 double Installation::pile_work() const
 {
-  return model.grains()->surfaces[tip_and_shaft.surface].work;
+  return model.grains()->surfaces[pile.parts.surface].work;
 }
 
 double Installation::bottom_force() const
@@ -170,7 +144,7 @@ void Installation::look_at_rotation(Progress &progress)
 
 void Installation::visit(StateVisitor &visit)
 {
-  for (const auto &[name, values] : pile->body().state())
+  for (const auto &[name, values] : pile.mover->body().state())
     visit("pile/" + name, values);
   rotation.visit(visit);
   if (!model.body())

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "coupling/adapter/model_energy.h"
-#include "coupling/adapter/rigid_mover.h"
 #include "coupling/adapter/two_scale_model.h"
 #include "drivers/common/progress.h"
+#include "drivers/common/run/placed_intruder.h"
 #include "drivers/common/run/rotation_watch.h"
 #include "drivers/pile_installation/start.h"
 #include "fe_dealii/step_control.h"
@@ -39,10 +39,10 @@ public:
 
   const dem::Simulation &sand() const { return *model.grains(); }
   const fe::ExplicitBody *body() const { return model.body(); } ///< of elements; none for grains alone
-  const dem::SurfaceParts &parts() const { return tip_and_shaft; }
+  const dem::SurfaceParts &parts() const { return pile.parts; }
   const InstallationStart &start() const { return begun; }
   const std::optional<GroundPlan> &plan() const { return plan_; }        ///< of two scales
-  double lowest() const { return pile->body().centre()[2]; }             ///< height of the tip [m]
+  double lowest() const { return pile.mover->body().centre()[2]; }       ///< height of the tip [m]
   double stable_step() const { return model.stable_steps().combined(); } ///< [s]
 
   /// @name Between compute() and move()
@@ -75,14 +75,12 @@ public:
 private:
   void hold_elements();
   void join();
-  void add_pile();
 
   const InstallationParameters &parameters;
   const InstallationStart &begun;
   std::optional<GroundPlan> plan_;
   coupling::TwoScaleModel model;
-  coupling::RigidMover *pile = nullptr;
-  dem::SurfaceParts tip_and_shaft;
+  PlacedIntruder pile;
   std::optional<fe::StepControl> body_steps;
   std::optional<fe::ExplicitBody::Constraint> floor; ///< of the elements
   std::vector<double> displacement_at_start;         ///< of the nodes [m]

@@ -159,7 +159,7 @@ dem::SimulationParameters InstallationParameters::installing() const
   p.wall() = p.grain();
   p.gravity = {0., 0., -gravity()};
   p.materials.add(p.grain());
-  p.materials.between(dem::grain_material, pile_material).friction = pile_friction;
+  p.materials.between(dem::grain_material, intruder_material).friction = pile_friction;
   p.set_damping(simulation.between_grains().damping_ratio);
   return p;
 }

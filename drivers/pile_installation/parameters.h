@@ -72,7 +72,7 @@ struct InstallationParameters
   dem::Box box() const; ///< of the sand
   double gravity() const { return sand.settling_gravity; }
   dem::SimulationParameters settling() const;
-  dem::SimulationParameters installing() const; ///< with the pile's material, see pile_material
+  dem::SimulationParameters installing() const; ///< with the pile's material, see intruder_material
 
   /// @param level of the settled sand, @param top of the elements [m]
   GroundPlan plan(double level, double top) const;
@@ -89,8 +89,5 @@ private:
   void validate_plan() const;
   void validate_pile() const;
 };
-
-/// Number of the pile's material among those of the grains.
-inline constexpr std::int32_t pile_material = 2;
 
 } // namespace bergamo::driver

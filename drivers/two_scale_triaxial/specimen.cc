@@ -6,7 +6,6 @@
 #include "drivers/common/run/visit_models.h"
 #include "drivers/two_scale_triaxial/contact_forces.h"
 #include "drivers/two_scale_triaxial/continuum_body.h"
-#include "fe_dealii/equilibrium/static_equilibrium.h"
 #include "fe_dealii/stable_step.h"
 
 #include <algorithm>
@@ -78,24 +77,6 @@ void Specimen::join(const std::vector<Vec3> &reference_by_id)
   for (const auto &x : model.body()->node_position())
     weight.push_back(interface.weight_at({x[0], x[1], x[2]}, parameters.weight));
   model.join(parameters.coupling, weight, reference_by_id);
-}
-
-void Specimen::settle(Progress &progress)
-{
-  if (!model.overlap())
-    return;
-  model.compute_forces();
-  try
-  {
-    fe::find_equilibrium(*model.body());
-  }
-  catch (const RunError &)
-  {
-    progress.warn(
-        "the continuum does not bear what the packing's grains put on it from place to place: it starts with the "
-        "packing's mean stresses, and yields; strengthen the material or take larger elements");
-  }
-  model.overlap()->begin();
 }
 
 void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)

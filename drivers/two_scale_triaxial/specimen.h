@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/adapter/two_scale_model.h"
+#include "drivers/common/run/joined_start.h"
 #include "drivers/common/run/rotation_watch.h"
 #include "drivers/common/summary.h"
 #include "drivers/two_scale_triaxial/packing_stage.h"
@@ -28,10 +29,7 @@ public:
   /// @throws ConfigError where the time step is above the stable one of the continuum
   Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start);
 
-  /// Brings a continuum that is joined to rest under what the grains of the overlap put on it: a packing's forces
-  /// differ from place to place, and its own stresses do not yet. Ground too weak to bear them starts as it is,
-  /// with a warning. Call once, before the first step. Needs MPI, see run_with_mpi().
-  void settle(Progress &progress);
+  void settle(Progress &progress) { start_at_rest(model, progress); } ///< call once, before the first step
 
   /// One time step towards the strains at its end; measure() may be called in between. Throws RunError where the
   /// continuum has become too stiff for the step.
