@@ -8,7 +8,7 @@ namespace bergamo::fe
 /// Energies of a body [J] at the whole step of its last kick, the continuum's share included. Works and losses count
 /// from the first kick on. The leapfrog keeps
 ///   kinetic + elastic + plastic + viscous + radiated + stiffness loss − (boundary + gravity + external work)
-///     − step change = initial
+///     − step change − exchanged = initial
 /// to rounding: kinetic is ½ v⁻·m v⁺ with the half-step velocities around the kick, v⁺ for a step as long as the one
 /// before, and every work and loss is ½(F_{n−1} + F_n)·(u_n − u_{n−1}).
 struct BodyEnergy
@@ -29,13 +29,14 @@ struct BodyEnergy
   /// Σ ⅛ (Δt_before² − Δt_after²) a·m a over the changes of the time step: the kinetic energy above lies ⅛ Δt² a·m a
   /// below that of the velocity at the whole step, and jumps with it.
   double step_change = 0;
-  double initial = 0; ///< kinetic + elastic + the losses at the first kick
+  double exchanged = 0; ///< brought by elements whose share has changed since
+  double initial = 0;   ///< kinetic + elastic + the losses at the first kick
 
   /// What the balance fails to close by; zero to rounding in a sound run.
   double residual() const
   {
     return kinetic + elastic + plastic_dissipation + viscous_dissipation + radiated + stiffness_loss - boundary_work -
-           gravity_work - external_work - step_change - initial;
+           gravity_work - external_work - step_change - exchanged - initial;
   }
 };
 

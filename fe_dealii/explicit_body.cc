@@ -138,26 +138,31 @@ void ExplicitBody::set_share(const std::span<const double> nodal_weight)
   for (std::size_t node = 0; node < n_nodes(); ++node)
     if (!(nodal_weight[node] >= 0 && nodal_weight[node] <= 1))
       reject("continuum: the weight of node ", node, " is ", nodal_weight[node], "; weights lie in [0, 1]");
-  // A node has mass exactly if one of its elements has a node of weight below 1. Checked first: a throw changes
-  // nothing.
-  std::vector<bool> has_mass(n_nodes(), false);
+  std::vector<bool> absent(n_elements());
   for (std::size_t e = 0; e < n_elements(); ++e)
   {
     const std::span<const unsigned int> nodes = element_nodes(e);
-    if (std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) { return nodal_weight[node] < 1; }))
-      for (const unsigned int node : nodes)
-        has_mass[node] = true;
+    absent[e] =
+        std::all_of(nodes.begin(), nodes.end(), [&](const unsigned int node) { return nodal_weight[node] == 1; });
+    if (is_absent(e) && !absent[e])
+      reject("continuum: the weights bring back element ", e,
+             ", which was absent, and its nodes have stayed behind; let weights grow there");
   }
-  const auto massless = std::find(has_mass.begin(), has_mass.end(), false);
-  if (massless != has_mass.end())
-    reject("continuum: the weights leave node ", massless - has_mass.begin(),
-           " without mass; bound them away from 1, e.g. by 0.999");
+  if (std::find(absent.begin(), absent.end(), false) == absent.end())
+    reject("continuum: the weights leave no element with a share; bound some of them away from 1");
 
   std::vector<double> share(n_nodes());
   for (std::size_t node = 0; node < n_nodes(); ++node)
     share[node] = 1 - nodal_weight[node];
-  elements().set_share(share);
-  gather_mass();
+  exchange(
+      [&]
+      {
+        elements().set_share(share);
+        for (std::size_t e = 0; e < n_elements(); ++e)
+          if (absent[e])
+            elements().make_rigid(e);
+      });
+  is_absent_ = std::move(absent);
 }
 
 std::vector<unsigned int> ExplicitBody::boundary_nodes(const unsigned int boundary_id) const

@@ -53,10 +53,14 @@ public:
   ~ExplicitBody() override;
 
   /// Share 1 − w of the continuum where particles carry the rest (Arlequin weight w, one per node, in [0, 1]):
-  /// interpolated to the quadrature points, where it multiplies mass, internal force and gravity. Call before the first
-  /// step. Throws ConfigError for a wrong length, a weight outside [0, 1], a node left without mass (bound the
-  /// weights away from 1) or a material of large strain.
+  /// interpolated to the quadrature points, where it multiplies mass, internal force and gravity. Elements of which all
+  /// nodes have w = 1 are absent: they have no forces, and nodes that have no others stay where they are. May be called
+  /// again between steps, with weights that leave no element absent that is not so already to come back; the energy
+  /// that this takes out is booked as if it had never been there. Throws ConfigError for a wrong length, a weight
+  /// outside [0, 1], a body left without elements, an absent element that would come back, or a material of large
+  /// strain.
   void set_share(std::span<const double> nodal_weight);
+  bool is_absent(const std::size_t element) const { return !is_absent_.empty() && is_absent_[element]; }
 
   std::vector<unsigned int> boundary_nodes(unsigned int boundary_id) const override;
   /// Numbers the vectors of the body: FESystem(FE_Q(degree), 3) on the body's own copy of the mesh.
@@ -72,6 +76,7 @@ private:
   std::unique_ptr<Mesh> mesh_;
   std::vector<unsigned int> material_id_;      // of the elements
   std::map<unsigned int, Material> materials_; // by id
+  std::vector<bool> is_absent_;                // of the elements; none where none is
 };
 
 /// A body on the mesh that make_box() makes. Throws ConfigError for what either does not allow.

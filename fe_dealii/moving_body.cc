@@ -75,6 +75,30 @@ void MovingBody::gather_mass()
   }
 }
 
+void MovingBody::exchange(const std::function<void()> &change)
+{
+  const bool is_booked = n_steps() > 0;
+  if (is_booked)
+    compute_internal_force();
+  const double before = is_booked ? present_energy() : 0;
+  change();
+  gather_mass();
+  if (!is_booked)
+    return;
+  compute_internal_force();
+  ledger_.exchanged += present_energy() - before;
+}
+
+/// Elastic at the last forces, kinetic at the half step before, less what the elements do on the nodes from there to
+/// here: the energy of the step with these elements, but for what does not depend on them [J].
+double MovingBody::present_energy() const
+{
+  double sum = elements_->elastic_energy();
+  for (std::size_t dof = 0; dof < mass_.size(); ++dof)
+    sum += 0.5 * velocity_[dof] * (mass_[dof] * velocity_[dof] - ledger_.last_step * internal_force_[dof]);
+  return sum;
+}
+
 void MovingBody::scale_mass()
 {
   mass_factor_.clear();
@@ -168,8 +192,11 @@ struct MovingBody::Kick
   double before, after, time; // the steps, and over which the forces act [s]
   double half_damping;        // of a velocity, over half of the time [-]
 
+  /// A node of absent elements alone has no mass and stays.
   double velocity_after(const double old, const double force, const double mass) const
   {
+    if (mass == 0)
+      return 0;
     return ((1 - half_damping) * old + time * force / mass) / (1 + half_damping);
   }
 };
@@ -478,6 +505,7 @@ BodyEnergy MovingBody::energy() const
   energy.gravity_work = ledger_.here.gravity;
   energy.external_work = ledger_.here.external;
   energy.step_change = ledger_.here.step_change;
+  energy.exchanged = ledger_.exchanged;
   energy.initial =
       ledger_.last_step > 0 ? ledger_.initial : energy.elastic + energy.plastic_dissipation + energy.stiffness_loss;
   return energy;

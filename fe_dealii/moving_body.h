@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -191,11 +192,16 @@ protected:
   /// Masses of the nodes from those of the elements; again after these have changed.
   void gather_mass();
 
+  /// Changes what the elements are, with the masses that follow, at the present displacement; of a body that has moved
+  /// it books the energy which comes or goes with it.
+  void exchange(const std::function<void()> &change);
+
   std::span<const double> displacement_of_stress() const { return displacement_of_stress_; }
   const std::string &name() const { return name_; }
 
 private:
   void scale_mass();
+  double present_energy() const;
   bool is_held_by_dashpots(const std::size_t dof) const
   {
     return hold_ && constraint_of_dof_[dof] == static_cast<int>(hold_->place());
@@ -239,6 +245,7 @@ private:
     Work ahead; // the same plus the half of the coming drift that the last kick's forces do
     double kinetic = 0;
     double initial = 0;
+    double exchanged = 0;
     double last_step = 0; // dt of the last kick [s], 0 before the first
   };
   Ledger ledger_;

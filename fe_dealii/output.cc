@@ -7,6 +7,7 @@
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe.h>
+#include <deal.II/grid/filtered_iterator.h>
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>
 
@@ -75,6 +76,12 @@ void write(const Body &body, const std::vector<std::string> &names, const std::v
   dealii::DataOutBase::VtkFlags flags;
   flags.write_higher_order_cells = degree > 1;
   output.set_flags(flags);
+  if constexpr (requires { body.is_absent(0); })
+  {
+    using Cells = dealii::FilteredIterator<typename Output::cell_iterator>;
+    output.set_cell_selection(Cells([&body](const typename Output::cell_iterator &cell)
+                                    { return cell->is_active() && !body.is_absent(cell->active_cell_index()); }));
+  }
   output.build_patches(degree);
   write_whole(path, [&](std::ostream &file) { output.write_vtu(file); });
 }

@@ -20,10 +20,10 @@ PenaltyCoupling set_up(GrainsMover &grains, SolidMover &body, const CouplingPara
                        const OverlapPlace &place)
 {
   parameters.validate();
+  body.add_weights(place.nodal_weight); // first: no grain lies in elements that are absent by them
   const Overlap overlap = overlap_of(grains.simulation().particles, body, place.reference_by_id);
   const OverlapWeights weights(overlap, place.nodal_weight, parameters.least_weight);
   grains.set_weights(overlap.particle_id, weights.particle);
-  body.add_weights(place.nodal_weight);
   PenaltyCoupling penalty(overlap, parameters.projection, parameters.penalty);
   penalty.hold(HeldEdge(overlap, weights.node, weights.particle, parameters.edge));
   return penalty;
@@ -73,6 +73,9 @@ void ArlequinCoupling::apply()
   give_transfer();
   if (has_started_ == 0)
     start();
+  balance_edge(fresh_);
+  fresh_.clear();
+  has_just_moved_ = false;
   const std::span<double> fe_force = body_.solid().external_force();
   for (std::size_t dof = 0; dof < fe_force.size(); ++dof)
     fe_force[dof] += transfer_.on_nodes[dof];
@@ -101,7 +104,8 @@ void ArlequinCoupling::find_particles()
 
 void ArlequinCoupling::start()
 {
-  balance_edge();
+  fresh_.resize(penalty_.edge().size());
+  std::iota(fresh_.begin(), fresh_.end(), std::size_t(0));
   const dem::Particles &p = grains_.simulation().particles;
   resting_place_ = displacement_at(penalty_.overlap(), body_.solid());
   for (std::size_t k = 0; k < resting_place_.size(); ++k)
@@ -176,6 +180,18 @@ void ArlequinCoupling::renew()
   transfer_work_ -= 0.5 * drifted_ * power_of(transfer_);
 }
 
+void ArlequinCoupling::move_to(const OverlapPlace &place)
+{
+  for (std::size_t id = reference_by_id_.size(); id < place.reference_by_id.size(); ++id)
+    reference_by_id_.push_back(place.reference_by_id[id]);
+  body_.change_weights(nodal_weight_, place.nodal_weight);
+  nodal_weight_.assign(place.nodal_weight.begin(), place.nodal_weight.end());
+  renew();
+  const OverlapWeights weights(penalty_.overlap(), nodal_weight_, parameters_.least_weight);
+  penalty_.hold_instead(HeldEdge(penalty_.overlap(), weights.node, weights.particle, parameters_.edge), fresh_);
+  has_just_moved_ = true;
+}
+
 /// Notes when it has to be made anew.
 void ArlequinCoupling::look_at_overlap()
 {
@@ -192,7 +208,7 @@ void ArlequinCoupling::look_at_overlap()
 void ArlequinCoupling::give_transfer()
 {
   dem::Particles &p = grains_.simulation().particles;
-  const bool is_first = has_started_ == 0;
+  const bool is_first = has_just_come();
   const double share = !p.are_weighted() ? 0. : is_first ? 1. : -std::expm1(-drifted_ / parameters_.transfer_time);
   transfer_.resize(penalty_.overlap().n_particles());
   const double half_step = is_first ? 0. : 0.5 * drifted_;
@@ -229,12 +245,12 @@ void ArlequinCoupling::give_transfer()
 }
 
 /// Dead loads of the held grains, of what acts on them at this step; see HeldEdge.
-void ArlequinCoupling::balance_edge()
+void ArlequinCoupling::balance_edge(const std::span<const std::size_t> held)
 {
   const dem::Simulation &grains = grains_.simulation();
   const dem::Particles &p = grains.particles;
   HeldEdge &edge = penalty_.edge();
-  for (std::size_t k = 0; k < edge.size(); ++k)
+  for (const std::size_t k : held)
   {
     const int coupled = edge.particles()[k];
     const std::int32_t i = index_[coupled];

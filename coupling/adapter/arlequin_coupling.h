@@ -78,6 +78,13 @@ public:
   /// Makes the overlap anew, as follow() does when it is due; between follow() and apply().
   void renew();
 
+  /// The overlap goes elsewhere on the same mesh, between steps: the body's share and the grains' weights become those
+  /// of the new nodal weights, the edge is held where it is now, and grains that are new, with the highest ids, are in
+  /// it. What the old edge held is let go; the new one starts in equilibrium, if the others are, as at the first step.
+  /// @param place of the grains known so far it needs no references
+  /// @throws ConfigError as the constructor does
+  void move_to(const OverlapPlace &place);
+
   /// Where the grains are in the body's reference configuration, by id, as the present overlap has them [m]: a
   /// restarted run is joined with these.
   const std::vector<Vec3> &reference_by_id() const { return reference_by_id_; }
@@ -119,7 +126,8 @@ private:
   template <class AddForce>
   void compute_penalty(const AddForce &add_force, std::span<double> fe_force);
   void give_transfer();
-  void balance_edge();
+  void balance_edge(std::span<const std::size_t> held);
+  bool has_just_come() const { return has_started_ == 0 || has_just_moved_; }
   double power_of(const Transfer &transfer) const;
   double power_on_nodes(const Transfer &transfer) const;
 
@@ -141,6 +149,10 @@ private:
   double transfer_work_ = 0.; // [J]
   double drifted_ = 0.;       // since the last apply() [s]
   std::int64_t has_started_ = 0;
+
+  // Between move_to() and the apply() of the same step.
+  bool has_just_moved_ = false;
+  std::vector<std::size_t> fresh_; // places in the edge
 };
 
 } // namespace bergamo::coupling

@@ -105,7 +105,7 @@ MoverEnergy BodyMover::energy() const
 {
   const fe::BodyEnergy e = body_->energy();
   return {e.kinetic, e.elastic, e.plastic_dissipation + e.viscous_dissipation + e.radiated + e.stiffness_loss,
-          e.boundary_work + e.gravity_work};
+          e.boundary_work + e.gravity_work + e.exchanged};
 }
 
 BodyMover::Rigid &BodyMover::hold(const std::span<const unsigned int> nodes, const fe::RigidBodyParameters &parameters)
@@ -129,6 +129,18 @@ void SolidMover::add_weights(const std::span<const double> nodal_weight)
   std::vector<double> sum(nodal_weight.begin(), nodal_weight.end());
   for (std::size_t node = 0; node < std::min(sum.size(), weight_.size()); ++node)
     sum[node] += weight_[node];
+  solid_.set_share(sum);
+  weight_ = std::move(sum);
+}
+
+void SolidMover::change_weights(const std::span<const double> old_weight, const std::span<const double> nodal_weight)
+{
+  if (old_weight.size() != weight_.size() || nodal_weight.size() != weight_.size())
+    reject("continuum: ", old_weight.size(), " weights are to become ", nodal_weight.size(), " of ", weight_.size(),
+           " nodes; give one per node");
+  std::vector<double> sum(weight_);
+  for (std::size_t node = 0; node < sum.size(); ++node)
+    sum[node] = std::clamp(sum[node] - old_weight[node] + nodal_weight[node], 0., 1.); // rounding
   solid_.set_share(sum);
   weight_ = std::move(sum);
 }

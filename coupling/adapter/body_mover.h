@@ -102,6 +102,8 @@ public:
   /// Adds the weights of grains that share the body's space, one a node in [0, 1]: the body's share is what all of them
   /// leave. Call before the first step. Errors as ExplicitBody::set_share() has, for the sum of all weights.
   void add_weights(std::span<const double> nodal_weight);
+  /// Other ones instead of those that were added before, between steps; see ExplicitBody::set_share().
+  void change_weights(std::span<const double> old_weight, std::span<const double> nodal_weight);
   std::span<const double> weights() const { return weight_; } ///< their sum by node; empty where there are no grains
 
 private:

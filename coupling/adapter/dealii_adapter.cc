@@ -25,7 +25,7 @@ namespace
 
 using Cell = dealii::Triangulation<3>::cell_iterator;
 
-/// Looks for the elements of a body's reference configuration that points lie in.
+/// Looks for the elements of a body's reference configuration that points lie in; absent ones hold none.
 class ElementSearch
 {
 public:
@@ -41,7 +41,8 @@ public:
     std::vector<std::pair<dealii::BoundingBox<3>, unsigned int>> boxes;
     for (const auto &cell : body.dof_handler().active_cell_iterators())
     {
-      boxes.emplace_back(cell->bounding_box(), static_cast<unsigned int>(cells_.size()));
+      if (!body.is_absent(cells_.size()))
+        boxes.emplace_back(cell->bounding_box(), static_cast<unsigned int>(cells_.size()));
       cells_.push_back(cell);
     }
     tree_ = dealii::pack_rtree(boxes);
@@ -128,6 +129,17 @@ std::array<Vec3, 8> gradients_at(const dealii::FE_Q<3> &trilinear, const Cell &c
   return local;
 }
 
+/// Of a nodal field, three components a node.
+Vec3 value_in(const fe::ExplicitBody &body, const ElementSearch::Found &at, const std::span<const double> field)
+{
+  static const dealii::FE_Q<3> trilinear(1);
+  const auto nodes = body.element_nodes(at.element);
+  Vec3 value = Vec3::Zero();
+  for (unsigned int v = 0; v < 8; ++v)
+    value += trilinear.shape_value(v, at.unit) * Eigen::Map<const Vec3>(&field[3 * nodes[v]]);
+  return value;
+}
+
 } // namespace
 
 Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::int64_t> id,
@@ -179,7 +191,6 @@ std::vector<Vec3> reference_places(const fe::ExplicitBody &body, const std::span
 {
   constexpr int n_iterations = 3; // each gains a factor of the displacement's gradient
   const ElementSearch search(body);
-  const dealii::FE_Q<3> trilinear(1);
   const std::span<const double> u = body.displacement();
   std::vector<Vec3> places(position.begin(), position.end());
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -188,13 +199,22 @@ std::vector<Vec3> reference_places(const fe::ExplicitBody &body, const std::span
       const auto found = search.find(places[i]);
       if (!found)
         break;
-      const auto nodes = body.element_nodes(found->element);
-      Vec3 displacement = Vec3::Zero();
-      for (unsigned int v = 0; v < 8; ++v)
-        displacement += trilinear.shape_value(v, found->unit) * Eigen::Map<const Vec3>(&u[3 * nodes[v]]);
-      places[i] = position[i] - displacement;
+      places[i] = position[i] - value_in(body, *found, u);
     }
   return places;
+}
+
+std::vector<Vec3> values_at(const fe::ExplicitBody &body, const std::span<const Vec3> position,
+                            const std::span<const double> field)
+{
+  const ElementSearch search(body);
+  std::vector<Vec3> values;
+  for (const Vec3 &place : position)
+  {
+    const auto found = search.find(place);
+    values.push_back(found ? value_in(body, *found, field) : Vec3::Zero());
+  }
+  return values;
 }
 
 std::vector<double> distances_to(const fe::ExplicitBody &body, const std::span<const Vec3> position)

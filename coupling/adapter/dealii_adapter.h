@@ -22,6 +22,10 @@ Overlap make_overlap(const fe::ExplicitBody &body, std::span<const std::int64_t>
 /// of its displacement's gradient times the displacement; places in no element stay where they are [m].
 std::vector<Vec3> reference_places(const fe::ExplicitBody &body, std::span<const Vec3> position);
 
+/// A nodal field (3 * node + component) at places of the body's reference configuration; zero in no element.
+std::vector<Vec3> values_at(const fe::ExplicitBody &body, std::span<const Vec3> position,
+                            std::span<const double> field);
+
 /// A lower bound of the distance from places to a body's elements in the present configuration, 0 within and beside
 /// them: that to the nearest box about one in the reference configuration, less the greatest displacement [m].
 std::vector<double> distances_to(const fe::ExplicitBody &body, std::span<const Vec3> position);

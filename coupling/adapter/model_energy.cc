@@ -30,6 +30,7 @@ ModelEnergy energy_of(const TwoScaleModel &model)
     e.viscous_loss += b.viscous_dissipation + b.radiated;
     e.wall_work += b.boundary_work;
     e.gravity_work += b.gravity_work;
+    e.weight_work += b.exchanged;
   }
   e.coupling = model.penalty_state().energy;
   if (model.overlap())

@@ -14,7 +14,7 @@ struct ModelEnergy
   double gravity_work = 0.;
   double transfer_work = 0.; ///< of what the gradient of the weights transfers, on both models
   double curvature_work = 0., search_work = 0., quadrature_work = 0.; ///< of the grains' contacts, see dem::GrainEnergy
-  double weight_work = 0.; ///< brought by grains whose weight changed, see dem::Simulation::change_weights()
+  double weight_work = 0.; ///< brought by grains that came or whose weight changed, and by elements whose share did
 
   double balance() const
   {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 
 namespace bergamo::coupling
@@ -118,22 +119,45 @@ double HeldEdge::renew(const Overlap &overlap, const std::span<const Eigen::Vect
   return let_go;
 }
 
+double HeldEdge::become(HeldEdge other, std::vector<std::size_t> &fresh)
+{
+  std::unordered_map<std::int64_t, std::size_t> own;
+  for (std::size_t k = 0; k < size(); ++k)
+    own.emplace(id_[k], k);
+  double let_go = std::accumulate(energy_.begin(), energy_.end(), 0.);
+  other.energy_.assign(other.size(), 0.);
+  for (std::size_t k = 0; k < other.size(); ++k)
+    if (const auto found = own.find(other.id_[k]); found != own.end())
+    {
+      const std::int32_t particle = other.particle_[k];
+      other.copy(found->second, *this, k);
+      other.particle_[k] = particle;
+      let_go -= energy_[found->second];
+    }
+    else
+      fresh.push_back(k);
+  *this = std::move(other);
+  return let_go;
+}
+
+/// A particle of another edge, or of this one, as one of its own.
+void HeldEdge::copy(const std::size_t from, const HeldEdge &other, const std::size_t to)
+{
+  id_[to] = other.id_[from];
+  particle_[to] = other.particle_[from];
+  stiffness_[to] = other.stiffness_[from];
+  shift_[to] = other.shift_[from];
+  dead_load[to] = other.dead_load[from];
+  place_[to] = other.place_[from];
+  std::copy_n(other.node_.begin() + n_nodes * from, n_nodes, node_.begin() + n_nodes * to);
+}
+
 void HeldEdge::remove(const std::vector<bool> &is_gone)
 {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < is_gone.size(); ++k)
-  {
-    if (is_gone[k])
-      continue;
-    id_[kept] = id_[k];
-    particle_[kept] = particle_[k];
-    stiffness_[kept] = stiffness_[k];
-    shift_[kept] = shift_[k];
-    dead_load[kept] = dead_load[k];
-    place_[kept] = place_[k];
-    std::copy_n(node_.begin() + n_nodes * k, n_nodes, node_.begin() + n_nodes * kept);
-    ++kept;
-  }
+    if (!is_gone[k])
+      copy(k, *this, kept++);
   id_.resize(kept);
   particle_.resize(kept);
   stiffness_.resize(kept);

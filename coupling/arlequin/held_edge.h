@@ -58,6 +58,11 @@ public:
   /// @return the energy that these had at the last add_forces() [J]
   double renew(const Overlap &overlap, std::span<const Eigen::Vector3d> moved);
 
+  /// Becomes another edge of the same overlap. Particles that are held by both stay tied as they were, the others are
+  /// let go; places of those that are new are appended to `fresh`, in the order of particles().
+  /// @return the energy that those let go had at the last add_forces() [J]
+  double become(HeldEdge other, std::vector<std::size_t> &fresh);
+
   /// All of it, by name; see dem/core/state.h.
   template <class Self, class Visit>
   static void visit_state(Self &self, Visit &visit)
@@ -76,6 +81,7 @@ private:
 
   std::size_t end_of_element(std::size_t k) const;
   void remove(const std::vector<bool> &is_gone);
+  void copy(std::size_t from, const HeldEdge &other, std::size_t to);
 
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> particle_;

@@ -60,6 +60,9 @@ public:
   /// Throws ConfigError for a bad overlap. Call after compute() at the present displacements.
   void renew(Overlap overlap, std::span<const Eigen::Vector3d> moved);
 
+  /// Holds another edge from now on, after renew(); see HeldEdge::become().
+  void hold_instead(HeldEdge edge, std::vector<std::size_t> &fresh) { put_in_ += edge_.become(std::move(edge), fresh); }
+
   /// Displacements [m] of the coupled particles and of the whole FE mesh (3 * node + component) to the coupling forces
   /// [N]: `particle_force` is overwritten, `fe_force` is added to. Throws ConfigError for wrong sizes.
   PenaltyState compute(std::span<const Eigen::Vector3d> particle_displacement, std::span<const double> fe_displacement,

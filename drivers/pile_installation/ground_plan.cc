@@ -32,16 +32,31 @@ std::vector<double> shrinking(const double far_end, const double edge, const Gro
 
 } // namespace
 
+GroundPlan GroundPlan::deeper(const double by) const
+{
+  GroundPlan plan = *this;
+  plan.inner_bottom -= by;
+  plan.outer_bottom -= by;
+  return plan;
+}
+
 bool GroundPlan::holds_grain(const Vec3 &centre) const
 {
-  return std::abs(centre[0]) < outer_half_width && centre[2] > outer_bottom;
+  return is_near(centre, 0.);
+}
+
+bool GroundPlan::is_near(const Vec3 &centre, const double margin) const
+{
+  return std::abs(centre[0]) < outer_half_width + margin && centre[2] > outer_bottom - margin;
 }
 
 double GroundPlan::weight_at(const Vec3 &place, const coupling::WeightShape shape) const
 {
   const double from_side = (outer_half_width - std::abs(place[0])) / (outer_half_width - inner_half_width),
                from_bottom = (place[2] - outer_bottom) / (inner_bottom - outer_bottom);
-  return coupling::weight_at(shape, std::min(from_side, from_bottom));
+  const double share = std::min(from_side, from_bottom), nearest = std::round(share);
+  constexpr double rounding = 1e-9;
+  return coupling::weight_at(shape, std::abs(share - nearest) < rounding ? nearest : share);
 }
 
 fe::PitMeshParameters mesh_of(const GroundPlan &plan, const GroundMesh &mesh)
@@ -55,7 +70,9 @@ fe::PitMeshParameters mesh_of(const GroundPlan &plan, const GroundMesh &mesh)
   for (auto place = left.rbegin() + 1; place != left.rend(); ++place)
     x.push_back(-*place);
 
-  std::vector<double> z = shrinking(plan.bottom, plan.outer_bottom, mesh);
+  std::vector<double> z = shrinking(plan.bottom, plan.deepest_bottom, mesh);
+  if (plan.outer_bottom > plan.deepest_bottom)
+    add_even(z, plan.outer_bottom, mesh.element_size);
   add_even(z, plan.inner_bottom, overlap_step);
   add_even(z, plan.top, mesh.element_size);
 

@@ -21,10 +21,19 @@ struct GroundPlan
   double inner_bottom = 0., outer_bottom = 0.;
   /// @}
 
+  double deepest_bottom =
+      0.; ///< to where the outer edge may go down, as the block grows: a layer of elements each time
+
+  /// The block deeper by that much [m].
+  GroundPlan deeper(double by) const;
+
+  /// Whether a grain lies in the block or nearer to its sides or its bottom than a margin [m].
+  bool is_near(const Vec3 &centre, double margin) const;
+
   bool holds_grain(const Vec3 &centre) const; ///< whether it lies in the block, with its overlap
 
   /// Weight of the grains: by the way from the outer to the inner edge of the overlap, at the side or at the bottom,
-  /// whichever is the less, so that it is continuous in the corners.
+  /// whichever is the less, so that it is continuous in the corners. Exact at the edges.
   double weight_at(const Vec3 &place, coupling::WeightShape shape) const;
 };
 
@@ -37,7 +46,7 @@ struct GroundMesh
   double growth = 1.25;            ///< from element to element outwards, >= 1
 };
 
-/// The elements of a plan: all ground outside of the inner edge of the overlap.
+/// The elements of a plan: all ground outside of the inner edge of the overlap, even down to the deepest bottom.
 fe::PitMeshParameters mesh_of(const GroundPlan &plan, const GroundMesh &mesh);
 
 } // namespace bergamo::driver

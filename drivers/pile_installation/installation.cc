@@ -1,7 +1,9 @@
 #include "drivers/pile_installation/installation.h"
 
+#include "coupling/adapter/dealii_adapter.h"
 #include "drivers/common/run/joined_start.h"
 #include "drivers/common/run/visit_models.h"
+#include "drivers/pile_installation/fit_in.h"
 #include "drivers/pile_installation/ground_body.h"
 
 #include <algorithm>
@@ -21,12 +23,13 @@ std::optional<GroundPlan> plan_of(const InstallationParameters &p, const Install
 } // namespace
 
 Installation::Installation(const InstallationParameters &p, std::unique_ptr<dem::Simulation> sand,
-                           const InstallationStart &start)
+                           InstallationStart &start)
     : parameters(p), begun(start), plan_(plan_of(p, start)),
       model(std::move(sand), plan_ ? make_ground(p, start, *plan_) : nullptr, p.simulation.time_step)
 {
   if (model.body())
   {
+    plan_ = plan_->deeper(static_cast<double>(begun.n_growths) * p.mesh.element_size);
     hold_elements();
     join();
     body_steps.emplace(*model.body());
@@ -44,12 +47,73 @@ void Installation::hold_elements()
   floor = body.prescribe_velocity(4u, 2);
 }
 
-void Installation::join()
+std::vector<double> Installation::nodal_weight() const
 {
   std::vector<double> weight;
   for (const auto &x : model.body()->node_position())
     weight.push_back(plan_->weight_at({x[0], x[1], x[2]}, parameters.weight));
-  model.join(parameters.coupling, weight, begun.reference_by_id);
+  return weight;
+}
+
+void Installation::join()
+{
+  model.join(parameters.coupling, nodal_weight(), begun.reference_by_id);
+}
+
+bool Installation::must_grow() const
+{
+  // Not at the first step, of which the forces are known already.
+  return plan_ && model.body()->n_steps() > 0 && begun.n_growths < parameters.n_growths() &&
+         lowest() - plan_->inner_bottom < parameters.growth_distance;
+}
+
+/// The overlap goes down by a layer of elements. Below it come the grains that had settled there, each where the
+/// elements have taken its place, fitted in there, and with their velocity; what the pile has come near to is of grains
+/// alone.
+void Installation::grow()
+{
+  const GroundPlan before = *plan_;
+  plan_ = before.deeper(parameters.mesh.element_size);
+  ++begun.n_growths;
+
+  const dem::Particles &reserve = begun.reserve;
+  const std::vector<Vec3> moved = motion_of_ground(reserve.position);
+  const double margin = parameters.beside_block();
+  dem::Particles added, about;
+  std::vector<Vec3> settled;
+  for (std::size_t i = 0; i < reserve.size(); ++i)
+  {
+    const Vec3 &place = reserve.position[i];
+    if (before.holds_grain(place) || !plan_->is_near(place, margin))
+      continue;
+    const bool is_added = plan_->holds_grain(place);
+    dem::Particles &some = is_added ? added : about;
+    some.append(reserve, i, reserve.id[i]);
+    some.position.back() += moved[i];
+    if (is_added)
+      settled.push_back(place);
+  }
+  for (std::size_t i = 0; i < sand().particles.size(); ++i)
+    if (sand().particles.position[i][2] < before.outer_bottom + margin)
+      about.append(sand().particles, i, sand().particles.id[i]);
+  added = fit_in(added, about, sand().walls, parameters.installing());
+  const fe::ExplicitBody &body = *model.body();
+  added.velocity = coupling::values_at(body, settled, body.velocity());
+
+  model.grains()->add(added);
+  begun.place_by_id.insert(begun.place_by_id.end(), settled.begin(), settled.end());
+  begun.reference_by_id = model.overlap()->reference_by_id();
+  begun.reference_by_id.insert(begun.reference_by_id.end(), settled.begin(), settled.end());
+  model.overlap()->move_to({nodal_weight(), begun.reference_by_id});
+}
+
+/// Since the start, at places where the ground lay then.
+std::vector<Vec3> Installation::motion_of_ground(const std::span<const Vec3> places) const
+{
+  std::vector<double> moved(body()->displacement().begin(), body()->displacement().end());
+  for (std::size_t dof = 0; dof < moved.size(); ++dof)
+    moved[dof] -= displacement_at_start[dof];
+  return coupling::values_at(*body(), places, moved);
 }
 
 void Installation::settle(Progress &progress)
@@ -65,6 +129,8 @@ void Installation::settle(Progress &progress)
 void Installation::compute(const double time)
 {
   const double step = parameters.simulation.time_step;
+  if (must_grow())
+    grow();
   if (parameters.drive == PileDrive::speed)
     pile.mover->body().guide().velocity[2] = -parameters.speed_at(time + 0.5 * step);
   model.compute_forces();

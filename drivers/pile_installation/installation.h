@@ -22,10 +22,10 @@ class Installation
 {
 public:
   /// @param sand with the parameters of the installation, and with the pile's surface where it was stored with it
-  /// @param start must outlive it
+  /// @param start must outlive it; it follows the block as that grows
   /// @throws ConfigError where the time step is above the stable one of the elements
   Installation(const InstallationParameters &parameters, std::unique_ptr<dem::Simulation> sand,
-               const InstallationStart &start);
+               InstallationStart &start);
 
   /// Brings the elements to rest under what the grains of the overlap put on them. Ground too weak to bear that starts
   /// as it is, with a warning. Call once, before the first step. Needs MPI for two scales, see run_with_mpi().
@@ -33,7 +33,8 @@ public:
 
   /// @name One step
   /// @{
-  void compute(double time); ///< forces and kick; time since the pile is there [s]
+  /// Forces and kick; before them the block may grow. @param time since the pile is there [s]
+  void compute(double time);
   void move() { model.drift(); }
   /// @}
 
@@ -41,7 +42,7 @@ public:
   const fe::ExplicitBody *body() const { return model.body(); } ///< of elements; none for grains alone
   const dem::SurfaceParts &parts() const { return pile.parts; }
   const InstallationStart &start() const { return begun; }
-  const std::optional<GroundPlan> &plan() const { return plan_; }        ///< of two scales
+  const std::optional<GroundPlan> &plan() const { return plan_; }        ///< of two scales, as it is now
   double lowest() const { return pile.mover->body().centre()[2]; }       ///< height of the tip [m]
   double stable_step() const { return model.stable_steps().combined(); } ///< [s]
 
@@ -75,10 +76,14 @@ public:
 private:
   void hold_elements();
   void join();
+  std::vector<double> nodal_weight() const;
+  bool must_grow() const;
+  void grow();
+  std::vector<Vec3> motion_of_ground(std::span<const Vec3> places) const;
 
   const InstallationParameters &parameters;
-  const InstallationStart &begun;
-  std::optional<GroundPlan> plan_;
+  InstallationStart &begun;
+  std::optional<GroundPlan> plan_; // at the start, and then as it has grown
   coupling::TwoScaleModel model;
   PlacedIntruder pile;
   std::optional<fe::StepControl> body_steps;

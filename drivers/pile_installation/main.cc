@@ -128,6 +128,7 @@ Summary InstallationRun::summary() const
   {
     summary.set("elements", body->n_elements());
     summary.set("overlap_renewals", installation->n_renewals());
+    summary.set("block_growths", start.n_growths);
     summary.set("greatest_rotation_degrees", installation->greatest_rotation(), "degrees");
   }
   start.add_to(summary);

@@ -49,6 +49,12 @@ void InstallationParameters::declare(ParameterFile &file)
            "of the grains that stay, along x, to the outer edge of the overlap; the pile is in its middle [m]",
            Range::positive());
   file.add("Model", "block depth", block_depth, "the same from the settled sand's level down [m]", Range::positive());
+  file.add("Model", "growth depth", growth_depth,
+           "by which the block may grow downwards as the pile comes near its end, in whole elements; 0: never [m]",
+           Range::non_negative());
+  file.add("Model", "growth distance", growth_distance,
+           "of the tip above the overlap below it, where the next layer of elements becomes grains [m]",
+           Range::non_negative());
   file.add("Model", "beyond sides", beyond_sides, "width of the elements beyond the box of sand, on each side [m]",
            Range::non_negative());
   file.add("Model", "beyond bottom", beyond_bottom, "the same below it [m]", Range::non_negative());
@@ -106,10 +112,10 @@ void InstallationParameters::validate_pile() const
     reject("Pile/start time is ", start_time, " s, more than twice Pile/time, ", time, " s; choose a shorter one");
   constexpr double densest = 0.74;
   const double lowest_level = sand.box[2] * sand.solid_fraction / densest,
-               ground = is_two_scale() ? std::min(block_depth, lowest_level) : lowest_level;
+               ground = is_two_scale() ? std::min(deepest_block(), lowest_level) : lowest_level;
   if (final_way() > ground)
     reject("the pile goes ", final_way(), " m down (Pile/speed, Pile/time), but the grains may be only ", ground,
-           " m deep; choose less, a deeper Model/block depth or a higher Sand/box");
+           " m deep; choose less, a deeper Model/block depth or growth depth, or a higher Sand/box");
   if (pile.width >= sand.box[0])
     reject("Pile/width is ", pile.width, " m; choose less than the length of Sand/box, ", sand.box[0], " m");
   if (pile.kind == IntruderKind::cone && pile.width >= sand.box[1])
@@ -125,11 +131,11 @@ void InstallationParameters::validate_plan() const
                overlap = mesh.overlap_layers * mesh.element_size;
   if (block_width > sand.box[0])
     reject("Model/block width is ", block_width, " m; choose at most the length of Sand/box, ", sand.box[0], " m");
-  if (block_depth > lowest_level)
-    reject("Model/block depth is ", block_depth, " m, but the settled sand may be only ", lowest_level,
-           " m high; choose less, or a higher Sand/box");
+  if (deepest_block() > lowest_level)
+    reject("Model/block depth is ", block_depth, " m and may grow to ", deepest_block(),
+           " m, but the settled sand may be only ", lowest_level, " m high; choose less, or a higher Sand/box");
   const double at_side = 0.5 * (sand.box[0] - block_width) + beyond_sides,
-               below = lowest_level - block_depth + beyond_bottom;
+               below = lowest_level - deepest_block() + beyond_bottom;
   if (at_side < mesh.element_size || below < mesh.element_size)
     reject("beyond the block of grains there would be ", at_side, " m of elements on each side and perhaps only ",
            below, " m below, less than Model/element size, ", mesh.element_size,
@@ -138,7 +144,7 @@ void InstallationParameters::validate_plan() const
   if (mesh.element_size < grain)
     reject("Model/element size is ", mesh.element_size, " m, less than a mean grain of ", grain, " m; choose more");
   const double least_width = 2. * overlap + pile.width + 4. * grain, least_depth = overlap + 4. * grain;
-  if (block_width < least_width || block_depth < least_depth + final_way())
+  if (block_width < least_width || deepest_block() < least_depth + final_way() || block_depth < least_depth)
     reject("Model/block width and block depth are ", block_width, " and ", block_depth, " m: with overlaps of ",
            overlap, " m and two grains beside the pile they must be at least ", least_width,
            " and, with the pile's way, ", least_depth + final_way(), " m");
@@ -183,6 +189,7 @@ GroundPlan InstallationParameters::plan(const double level, const double top) co
   plan.inner_half_width = plan.outer_half_width - overlap;
   plan.outer_bottom = level - block_depth;
   plan.inner_bottom = plan.outer_bottom + overlap;
+  plan.deepest_bottom = plan.outer_bottom - n_growths() * mesh.element_size;
   return plan;
 }
 
@@ -216,6 +223,12 @@ double InstallationParameters::speed_at(const double now) const
 double InstallationParameters::force_at(const double now) const
 {
   return drive == PileDrive::force ? head_force * std::clamp(now / time, 0., 1.) : 0.;
+}
+
+int InstallationParameters::n_growths() const
+{
+  constexpr double rounding = 1e-9;
+  return static_cast<int>(growth_depth / mesh.element_size + rounding);
 }
 
 std::int64_t InstallationParameters::n_steps() const

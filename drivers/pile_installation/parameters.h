@@ -38,6 +38,8 @@ struct InstallationParameters
 
   double block_width = 34e-3, block_depth = 14e-3; ///< of the grains, to the outer edge of the overlap [m]
   double beyond_sides = 0., beyond_bottom = 0.;    ///< ground of elements beyond the box of sand [m]
+  double growth_depth = 0.;                        ///< by which the block may become deeper [m]
+  double growth_distance = 6e-3;                   ///< of the tip above the overlap that makes it so [m]
   GroundMesh mesh;
   bool bending_elements = false; ///< see fe::Hourglass
 
@@ -84,6 +86,10 @@ struct InstallationParameters
   double speed_at(double time) const; ///< downwards [m/s]; time since the pile is there [s]
   double force_at(double time) const; ///< on the head, downwards [N]
   std::int64_t n_steps() const;
+  /// How far about the block grains count as neighbours of those that it gets as it grows [m].
+  double beside_block() const { return 4. * sand.distribution.largest_half_axis; }
+  int n_growths() const; ///< of the block, by a layer of elements each
+  double deepest_block() const { return block_depth + n_growths() * mesh.element_size; } ///< [m]
 
 private:
   void validate_plan() const;

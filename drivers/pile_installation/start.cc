@@ -29,16 +29,26 @@ double top_of_elements(const dem::Particles &grains, const InstallationParameter
   return highest + p.sand.distribution.mean_half_axes.mean();
 }
 
-void cut_block(dem::Simulation &sand, const GroundPlan &plan)
+/// @return of the grains taken out those that the block may get back as it grows, and those about them
+dem::Particles cut_block(dem::Simulation &sand, const InstallationParameters &parameters, const GroundPlan &plan)
 {
+  const dem::Particles &p = sand.particles;
+  const GroundPlan deepest = plan.deeper(plan.outer_bottom - plan.deepest_bottom);
   std::vector<std::int32_t> beyond;
-  for (std::size_t i = 0; i < sand.particles.size(); ++i)
-    if (!plan.holds_grain(sand.particles.position[i]))
-      beyond.push_back(static_cast<std::int32_t>(i));
+  dem::Particles reserve;
+  for (std::size_t i = 0; i < p.size(); ++i)
+  {
+    if (plan.holds_grain(p.position[i]))
+      continue;
+    beyond.push_back(static_cast<std::int32_t>(i));
+    if (parameters.n_growths() > 0 && deepest.is_near(p.position[i], parameters.beside_block()))
+      reserve.append(p, i, p.id[i]);
+  }
   for (const std::int32_t wall : {static_cast<std::int32_t>(bottom_wall), 1, 0})
     sand.remove_wall(wall);
   sand.remove(beyond);
   sand.integrate(); // one step: the forces to come are those without them
+  return reserve;
 }
 
 } // namespace
@@ -58,7 +68,7 @@ InstallationStart prepare_ground(dem::Simulation &sand, const InstallationParame
     return start;
   const GroundPlan plan = p.plan(start.sand.level, start.sand.level);
   start.top = top_of_elements(sand.particles, p, plan);
-  cut_block(sand, plan);
+  start.reserve = cut_block(sand, p, plan);
   return start;
 }
 
@@ -78,6 +88,8 @@ void InstallationStart::visit(StateVisitor &visit)
   visit("start/at_rest", at_rest);
   visit("start/place", place_by_id);
   visit("start/reference", reference_by_id);
+  visit("start/reserve", reserve);
+  visit("start/n_growths", n_growths);
 }
 
 } // namespace bergamo::driver

@@ -10,7 +10,7 @@
 namespace bergamo::driver
 {
 
-/// What the installation starts from.
+/// What the installation starts from, and what its block of grains has become since.
 struct InstallationStart
 {
   SettledSand sand;
@@ -19,6 +19,9 @@ struct InstallationStart
   Vec3 at_rest = Vec3::Ones();       ///< stresses of all sand at rest over the upright one: K0 along x and y, 1
   std::vector<Vec3> place_by_id;     ///< of the grains, before any were taken out [m]
   std::vector<Vec3> reference_by_id; ///< the same in the elements' reference configuration, as the overlap has it [m]
+
+  dem::Particles reserve; ///< settled grains below the block, which it gets as it grows, and about them, as they lay
+  std::int64_t n_growths = 0; ///< of the block so far
 
   bool is_known() const { return sand.height > 0.; } ///< the sand has settled
   void add_to(Summary &summary) const;

@@ -59,7 +59,8 @@ def fit(program, common, alone):
                 if not run(program, target, {**settings, **PATHS[path]}):
                     return np.full(sum(3 * len(h["time_s"]) for h in alone.values()), 1.)
                 mine = run_data.read_history(target)
-                found += [(mine[name] - history[name]) / largest[path] for name in STRESSES]
+                at = lambda name: np.interp(history["time_s"], mine["time_s"], mine[name])  # another step, other samples
+                found += [(at(name) - history[name]) / largest[path] for name in STRESSES]
             return np.concatenate(found)
 
     start = [np.log(start / low) / np.log(high / low) if "modulus" in name else (start - low) / (high - low)
@@ -73,9 +74,9 @@ def first_stage(history):
     return {name: values[history["stage"] == 1] for name, values in history.items()}
 
 
-def measure(program, folder, seeds, paths, common):
-    """Errors by model and path, one a packing; and those between packings of grains alone."""
-    rows = {}
+def measure(program, folder, seeds, choice, common):
+    """Errors by model and path of a choice of both, one a packing; and those between packings of grains alone."""
+    rows, (models, paths) = {}, choice
     folder_of = lambda model, path, seed: folder / f"{model}-{path}-{seed}".replace(" ", "-")
     read = lambda model, path, seed: run_data.read_history(folder_of(model, path, seed))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
@@ -89,7 +90,7 @@ def measure(program, folder, seeds, paths, common):
                 alone = {path: read("grains alone", path, seed) for path in paths}
                 kept.write_text(json.dumps(fit(program, common, alone), indent=1) + "\n")
         continuum = {seed: json.loads((folder / f"continuum-{seed}.json").read_text()) for seed in seeds}
-        jobs = [(model, path, seed) for seed in seeds for path in paths for model in MODELS]
+        jobs = [(model, path, seed) for seed in seeds for path in paths for model in models]
         done = list(pool.map(lambda job: run(program, folder_of(*job),
                                              {**common, **continuum[job[2]], **MODELS[job[0]], "Packing/seed": job[2],
                                               **PATHS[job[1]]}), jobs))
@@ -120,11 +121,14 @@ def write_table(rows, path):
                             f"{statistics.stdev(worst):.2f}" if len(worst) > 1 else ""])
 
 
-def draw(folder, seed, paths):
+def draw(folder, seed, choice):
     """Stresses of all models on the paths, as in Wellmann's figure 6.5."""
+    models, paths = choice
     figure, all_axes = run_data.new_panels(1, len(paths))
     for axes, path in zip(all_axes.ravel(), paths):
         for model, style in [("grains alone", "-"), *zip(MODELS, (":", "--", "-."))]:
+            if model not in ["grains alone", *models]:
+                continue
             history = run_data.read_history(folder / f"{model}-{path}-{seed}".replace(" ", "-"))
             for k, name in enumerate(STRESSES):
                 axes.plot(1e3 * history["time_s"], 1e-6 * history[name], style, color=run_data.COLOURS[k],
@@ -140,15 +144,17 @@ def main():
     parser = argument_parser(__doc__)
     parser.add_argument("--paths", nargs="+", choices=PATHS, default=list(PATHS),
                         help="these alone; the continuum is fitted to them")
+    parser.add_argument("--models", nargs="+", choices=MODELS, default=list(MODELS), help="these alone, beside grains")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     folder, seeds = arguments.folder.resolve(), range(1, arguments.seeds + 1)
     common = dict(text.split("=", 1) for text in getattr(arguments, "set"))
-    rows = measure(arguments.program.resolve(), folder, seeds, arguments.paths, common)
+    choice = arguments.models, arguments.paths
+    rows = measure(arguments.program.resolve(), folder, seeds, choice, common)
     write_table(rows, folder / "paths.csv")
     print((folder / "paths.csv").read_text(), end="")
-    draw(folder, seeds[0], arguments.paths)
+    draw(folder, seeds[0], choice)
 
 
 if __name__ == "__main__":

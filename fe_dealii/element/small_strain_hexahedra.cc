@@ -14,24 +14,29 @@ SmallStrainHexahedra<Law>::SmallStrainHexahedra(const Law &law, std::vector<unsi
     : SmallStrainElements<Law>(law, hexahedron::n_nodes, std::move(nodes), std::move(start), hexahedron::n_points),
       geometry_(std::move(geometry))
 {
+  constexpr double rounding = 1e-13;
+  for (std::size_t e = 0; e < this->size(); ++e)
+  {
+    const Points(&stress)[6] = this->history(e).stress;
+    const Points trace = stress[0] + stress[1] + stress[2];
+    const double low = math::least(trace), high = -math::least(-trace);
+    if (high - low > rounding * std::max(std::abs(low), std::abs(high)))
+      start_stress_.resize(this->size());
+  }
+  for (std::size_t e = 0; e < start_stress_.size(); ++e)
+    std::copy_n(this->history(e).stress, 6, start_stress_[e].component);
   find_start_force();
 }
 
 template <class Law>
 void SmallStrainHexahedra<Law>::find_start_force()
 {
-  constexpr double rounding = 1e-13;
+  if (start_stress_.empty())
+    return;
   std::vector<double> force(hexahedron::n_dofs * this->size());
-  bool is_even = true;
   for (std::size_t e = 0; e < this->size(); ++e)
-  {
-    const Points(&stress)[6] = this->history(e).stress;
-    const Points trace = stress[0] + stress[1] + stress[2];
-    const double low = math::least(trace), high = -math::least(-trace);
-    is_even &= high - low <= rounding * std::max(std::abs(low), std::abs(high));
-    hexahedron::unevenness_force(geometry_[e], stress, &force[hexahedron::n_dofs * e]);
-  }
-  start_force_ = is_even ? StartForce() : StartForce(std::move(force), hexahedron::n_dofs);
+    hexahedron::unevenness_force(geometry_[e], start_stress_[e].component, &force[hexahedron::n_dofs * e]);
+  start_force_ = StartForce(std::move(force), hexahedron::n_dofs);
 }
 
 template <class Law>

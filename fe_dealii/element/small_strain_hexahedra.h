@@ -44,7 +44,12 @@ private:
   void find_start_force();
 
   std::vector<hexahedron::Geometry> geometry_;
-  StartForce start_force_; // unevenness_force() of the stresses at the start; none where they are even
+  struct StartStress
+  {
+    Points component[6]; // [Pa]
+  };
+  std::vector<StartStress> start_stress_; // of each element; none where it is even in all
+  StartForce start_force_;                // unevenness_force() of it
 };
 
 extern template class SmallStrainHexahedra<LinearElastic>;

@@ -277,6 +277,9 @@ void EquilibriumParameters::validate() const
 EquilibriumReport find_equilibrium(ExplicitBody &body, const EquilibriumParameters &parameters)
 {
   parameters.validate();
+  if (std::find(body.mass().begin(), body.mass().end(), 0.) != body.mass().end())
+    reject("continuum: it has absent elements (ExplicitBody::set_share()), which have no equilibrium; bring it to rest "
+           "before they are left out");
   require_held(body);
   return Newton(body, parameters).run();
 }

@@ -23,7 +23,8 @@ GroundPlan plan()
           .inner_half_width = 6e-3,
           .outer_half_width = 10e-3,
           .inner_bottom = 13e-3,
-          .outer_bottom = 9e-3};
+          .outer_bottom = 9e-3,
+          .deepest_bottom = 9e-3};
 }
 
 constexpr GroundMesh mesh{.element_size = 2e-3, .overlap_layers = 2, .layers_across = 2, .growth = 1.3};
@@ -97,4 +98,34 @@ TEST_CASE("Ground plan: elements have planes at all edges of the overlap, as fin
   CHECK(x.back() - x[x.size() - 2] > 1.5 * mesh.element_size);
   CHECK(made.hole_maximum[0] == 6e-3);
   CHECK(made.hole_minimum[2] == 13e-3);
+}
+
+TEST_CASE("Ground plan: a block that becomes deeper has planes for each of its bottoms, and weights exact at its edges",
+          "[driver]")
+{
+  GroundPlan p = plan();
+  p.deepest_bottom = 3e-3;
+  const fe::PitMeshParameters made = mesh_of(p, mesh);
+  made.validate();
+  const auto &z = made.planes[2];
+  for (const double place : {-5e-3, 3e-3, 5e-3, 7e-3, 9e-3, 11e-3, 13e-3, 25e-3})
+    CHECK(has(z, place));
+  CHECK(made.hole_minimum[2] == 13e-3); // as at the start
+  for (int layer = 0; layer <= 3; ++layer)
+  {
+    const GroundPlan now = p.deeper(2e-3 * layer);
+    for (const double place : made.planes[0])
+      for (const double height : z)
+      {
+        const double w = now.weight_at({place, 0., height}, WeightShape::linear);
+        const bool is_inside = std::abs(place) < now.inner_half_width + 1e-9 && height > now.inner_bottom - 1e-9,
+                   is_outside = std::abs(place) > now.outer_half_width - 1e-9 || height < now.outer_bottom + 1e-9;
+        CHECK((w == 1.) == is_inside);
+        CHECK((w == 0.) == is_outside);
+      }
+    CHECK(now.holds_grain({0., 0., now.outer_bottom + 1e-6}));
+    CHECK_FALSE(now.holds_grain({0., 0., now.outer_bottom - 1e-6}));
+    CHECK(now.is_near({now.outer_half_width + 0.9e-3, 0., now.outer_bottom - 0.9e-3}, 1e-3));
+    CHECK_FALSE(now.is_near({now.outer_half_width + 1.1e-3, 0., 20e-3}, 1e-3));
+  }
 }

@@ -28,3 +28,10 @@ TEST_CASE("a picture that cannot be drawn is a warning with the reason, and the 
   CHECK_THAT(result.warnings[0], Contains("stresses.py not drawn") && Contains("history.csv"));
   CHECK_THAT(result.warnings[1], Contains("neither grains_*.vtu nor continuum_*.vtu"));
 }
+
+TEST_CASE("a script runs in a process group of its own, so that one signal ends it with all that it has started")
+{
+  TemporaryFolder folder;
+  put(folder / "head_of_group.py", "import os, sys\nsys.exit(os.getpgrp() != os.getpid())\n");
+  CHECK(make_plots({{(folder / "head_of_group.py").string(), {}}}).warnings.empty());
+}

@@ -94,7 +94,6 @@ TEST_CASE("grains pass through an overlap under stress that is made anew, withou
   model.kick();
   const coupling::ModelEnergy start = coupling::energy_of(model);
   const std::vector<std::int64_t> at_first = model.coupling()->overlap().particle_id;
-  const double pressed = model.grains()->walls[4].force[2];
   model.drift();
   double most_elastic = 0., largest_jump = 0.;
   const double diameter = model.coupling()->overlap().mean_diameter();

@@ -59,21 +59,31 @@ std::unique_ptr<dem::Simulation> make_pressed_packing()
   return packing;
 }
 
+dem::Particles cut_below(dem::Simulation &grains, const dem::Box &box)
+{
+  dem::Particles gone;
+  std::vector<std::int32_t> below;
+  for (std::size_t i = 0; i < grains.particles.size(); ++i)
+    if (grains.particles.position[i][2] < box.low[2] + box.edges()[2] / 3.)
+    {
+      below.push_back(static_cast<std::int32_t>(i));
+      gone.append(grains.particles, i, grains.particles.id[i]);
+    }
+  grains.remove_wall(4);
+  grains.remove(below);
+  grains.integrate();
+  return gone;
+}
+
 TwoScaleModel make_pressed_model(const coupling::CouplingParameters &join, const double gravity)
 {
   auto grains = make_pressed_packing();
   const dem::Box box = dem::box_between(grains->walls);
   const std::vector<Vec3> reference = dem::positions_by_id(grains->particles);
-  std::vector<std::int32_t> below;
-  for (std::size_t i = 0; i < grains->particles.size(); ++i)
-    if (grains->particles.position[i][2] < box.low[2] + box.edges()[2] / 3.)
-      below.push_back(static_cast<std::int32_t>(i));
   dem::SimulationParameters parameters = grains->parameters();
   parameters.gravity = {0., 0., -gravity};
   grains->change(parameters);
-  grains->remove_wall(4);
-  grains->remove(below);
-  grains->integrate();
+  cut_below(*grains, box);
   return join_below(std::move(grains), box, join, reference);
 }
 

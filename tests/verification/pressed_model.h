@@ -15,6 +15,10 @@ constexpr double confining_pressure = 1e5; // [Pa]
 /// A dense packing between six walls under pressure, at rest.
 std::unique_ptr<dem::Simulation> make_pressed_packing();
 
+/// Takes the grains of the lower third of a box and the wall below out of a packing.
+/// @return those grains, where they lay
+dem::Particles cut_below(dem::Simulation &grains, const dem::Box &box);
+
 /// The packing, of which a continuum takes the place of the lower third and shares the middle one.
 /// @param gravity from the first step on, downwards [m/s2]
 coupling::TwoScaleModel make_pressed_model(const coupling::CouplingParameters &join, double gravity = 0.);
