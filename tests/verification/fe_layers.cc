@@ -209,6 +209,27 @@ TEST_CASE("a layered body of equal materials is the homogeneous one, bit for bit
   CHECK(a.stiffness_loss == Approx(b.stiffness_loss).epsilon(1e-10));
 }
 
+TEST_CASE("layers of more elements than are computed at a time are the homogeneous body, where packs end in between",
+          "[fe]")
+{
+  ExplicitBodyParameters parameters;
+  parameters.hourglass = Hourglass::bending;
+  parameters.material = LinearElastic(soft);
+  parameters.gravity = {0, 0, -gravity};
+  const dealii::Triangulation<3> mesh = divided_box({{0, 0, 0}, {1, 1, 1}, {5, 5, 6}}, 0, 0.3); // 60 and 90 elements
+  ExplicitBodyParameters layered = parameters;
+  layered.layers = {{0, parameters.material}, {7, parameters.material}};
+  ExplicitBody one(mesh, parameters), two(mesh, layered);
+  for (ExplicitBody *body : {&one, &two})
+  {
+    for (std::size_t dof = 0; dof < 3 * body->n_nodes(); ++dof)
+      body->displacement()[dof] = 1e-3 * std::sin(5. * dof);
+    body->compute_internal_force();
+  }
+  for (std::size_t dof = 0; dof < 3 * one.n_nodes(); ++dof)
+    CHECK(two.internal_force()[dof] == one.internal_force()[dof]);
+}
+
 TEST_CASE("layers of one material come to rest as the homogeneous body, bit for bit, where flow is not associated",
           "[fe]")
 {

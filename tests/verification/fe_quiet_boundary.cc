@@ -352,7 +352,7 @@ struct Ground
   ExplicitBody body;
   double dt;
 
-  explicit Ground(const unsigned int degree = 1) : body(make(degree))
+  explicit Ground(const unsigned int degree = 1, const double surcharge = Ground::surcharge) : body(make(degree))
   {
     conditions(body, {"0 quiet", "1 quiet", "2 velocity y 0", "3 velocity y 0", "4 quiet"});
     SurfaceLoad(boundary_surface(body.dof_handler(), 5), body.node_position())
@@ -484,8 +484,12 @@ TEST_CASE("dashpots of any size set no limit to the time step and only take ener
   {
     std::vector<Dashpot> dashpots = quiet_boundary(body, side);
     for (Dashpot &dashpot : dashpots)
+    {
+      auto &[xx, yy, zz, xy, yz, zx] = dashpot.viscosity;
+      xy = yz = zx = 0.3 * std::min({xx, yy, zz}); // as on a face at an angle to the axes
       for (double &component : dashpot.viscosity)
         component *= size;
+    }
     body.add_dashpots(dashpots);
   }
   body.compute_internal_force();
@@ -499,6 +503,9 @@ TEST_CASE("dashpots of any size set no limit to the time step and only take ener
   for (int k = 0; k < 2000; ++k)
   {
     body.kick(dt);
+    const BodyEnergy energy = body.energy();
+    // To rounding of the drag, which nearly cancels where dashpots are as good as rigid.
+    REQUIRE(std::abs(energy.residual()) < 1e-11 * (1. + size) * (energy.initial + energy.radiated));
     const std::vector<double> displacement(body.displacement().begin(), body.displacement().end());
     body.drift(dt);
     body.compute_internal_force();
@@ -514,8 +521,11 @@ TEST_CASE("dashpots of any size set no limit to the time step and only take ener
 
 TEST_CASE("a run with quiet boundaries goes on from its state with the same bits", "[fe]")
 {
-  Ground first, second;
+  Ground first, second(1, 0.9 * Ground::surcharge); // its boundaries hold another load, until the state is put into it
   first.strike(30);
+  second.dt = first.dt;
+  std::copy(first.body.external_force().begin(), first.body.external_force().end(),
+            second.body.external_force().begin());
   const auto from = first.body.state(), to = second.body.state();
   REQUIRE(from.size() == to.size());
   for (std::size_t k = 0; k < from.size(); ++k)
