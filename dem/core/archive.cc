@@ -160,7 +160,7 @@ struct ArchiveWriter::State
 };
 
 ArchiveWriter::ArchiveWriter(const std::filesystem::path &path, const std::string &kind)
-    : state_(std::make_unique<State>(path))
+    : state_(std::make_shared<State>(path))
 {
   const Quiet quiet;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -211,23 +211,26 @@ void ArchiveWriter::write(const std::string &name, const std::string &text)
   state_->write(name, type, type, {}, text.c_str());
 }
 
-void ArchiveWriter::commit()
+std::function<void()> ArchiveWriter::finish()
 {
   const Quiet quiet;
   if (!state_->hdf5)
     state_->fail("it was committed before");
   H5Fflush(*state_->hdf5, H5F_SCOPE_GLOBAL);
   const ssize_t size = H5Fget_file_image(*state_->hdf5, nullptr, 0);
-  std::vector<char> image(size > 0 ? size : 0);
-  if (size <= 0 || H5Fget_file_image(*state_->hdf5, image.data(), image.size()) != size)
+  const auto image = std::make_shared<std::vector<char>>(size > 0 ? size : 0);
+  if (size <= 0 || H5Fget_file_image(*state_->hdf5, image->data(), image->size()) != size)
     state_->fail("HDF5 cannot finish the file in memory; use a machine with more memory");
   state_->hdf5.reset();
 
-  Checksum checksum(format_version);
-  checksum.add(image.data(), image.size());
-  state_->file.write(make_seal(format_version, image.size(), checksum.value()));
-  state_->file.write(image.data(), image.size());
-  state_->file.commit();
+  return [state = state_, image]
+  {
+    Checksum checksum(format_version);
+    checksum.add(image->data(), image->size());
+    state->file.write(make_seal(format_version, image->size(), checksum.value()));
+    state->file.write(image->data(), image->size());
+    state->file.commit();
+  };
 }
 
 struct ArchiveReader::State

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,11 +46,16 @@ public:
 
   /// Puts the file in place; a file of that name from before stays whole until then. Nothing may follow.
   /// Throws RunError (disk full, ...) that names the path, the system's reason and the remedy.
-  void commit();
+  void commit() { finish()(); }
+
+  /// The same in two parts: what is left for commit() once HDF5 has done its own. It may be called, once, by another
+  /// thread and when the writer is gone, which then drops nothing; without a call the partial file goes with the last
+  /// copy of it.
+  std::function<void()> finish();
 
 private:
   struct State;
-  std::unique_ptr<State> state_;
+  std::shared_ptr<State> state_;
 
   void write_integer(const std::string &name, std::int64_t value);
 };

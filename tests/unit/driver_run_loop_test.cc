@@ -151,6 +151,24 @@ TEST_CASE("a step is snapshot, forces, readings in their order, motion; the last
   CHECK(loop.last_time() == 1.0);
 }
 
+TEST_CASE("snapshots that hold up the run come less often, so that they take a fiftieth of the time at most")
+{
+  double clock = 0, in_snapshots = 0;
+  const double held_up = GENERATE(0.1, 5.);
+  const auto write = [&]
+  {
+    clock += held_up;
+    in_snapshots += held_up;
+  };
+  RunLoop loop({.interval = 20, .write = write, .steps_between_looks = 1}, [&] { return clock; });
+  loop.run(
+      {.time = [&] { return clock; }, .is_last = [&] { return loop.step() == 1000; }, .compute = [&] { clock += 1; }},
+      {});
+  CHECK(in_snapshots > 0);
+  CHECK(in_snapshots < 0.0201 * clock + held_up); // of the first nothing is known
+  CHECK(in_snapshots / held_up == (held_up < 1 ? Approx(49).margin(1) : Approx(4).margin(1)));
+}
+
 TEST_CASE("the interval between snapshots runs on from stage to stage")
 {
   double clock = 0;

@@ -133,3 +133,30 @@ TEST_CASE("pictures are numbered and joined, also after a restart")
   CHECK_FALSE(std::filesystem::exists(folder / "grains_0003.vtu"));
   CHECK_THAT(content_of(folder / "grains.pvd"), Contains("0.5") && Contains("1.5") && Contains("grains_0002.vtu"));
 }
+
+TEST_CASE("a snapshot written behind is that of the moment, and in place after the next call at the latest")
+{
+  TemporaryFolder folder;
+  State state;
+  state.step = 1;
+  Snapshot snapshot(folder / "s.h5", "test", "");
+  snapshot.write_behind(visit_of(state));
+  state.step = 2; // on it goes
+  snapshot.wait();
+  State found;
+  snapshot.read(visit_of(found));
+  CHECK(found.step == 1);
+  snapshot.write_behind(visit_of(state));
+  snapshot.read(visit_of(found)); // waits by itself
+  CHECK(found.step == 2);
+  CHECK_THROWS_WITH(snapshot.write_behind([](StateVisitor &) { throw RunError("diverged"); }), Contains("diverged"));
+  snapshot.read(visit_of(found));
+  CHECK(found.step == 2);
+
+  // What goes wrong on the disk comes at the next call, and is told once.
+  Snapshot lost(folder / "t.h5", "test", "");
+  CHECK_NOTHROW(
+      lost.write_behind([&](StateVisitor &) { std::filesystem::create_directories(folder / "t.h5/in_the_way"); }));
+  CHECK_THROWS_WITH(lost.wait(), Contains("t.h5"));
+  CHECK_NOTHROW(lost.wait());
+}

@@ -22,7 +22,7 @@ Run::Run(const CommandLine &command_line, const RunDescription &description)
     : command_line_(command_line), parameters_(description.parameters), folder_(command_line, description.own_files),
       snapshot_(folder_.snapshot(), description.kind, description.parameters),
       progress_(ProgressOptions::standard(command_line.quiet)),
-      loop_({description.snapshot_interval, [this] { snapshot_.write(state_); }})
+      loop_({description.snapshot_interval, [this] { snapshot_.write_behind(state_); }})
 {
 }
 
@@ -87,6 +87,7 @@ RunFigures Run::figures(const std::int64_t n_particles) const
 
 int Run::finish(const Summary &summary, const std::vector<std::string> &scripts) const
 {
+  snapshot_.wait();
   std::vector<PlotJob> pictures;
   for (const std::string &script : scripts)
     pictures.push_back({script, {folder_.path().string()}});
@@ -96,6 +97,7 @@ int Run::finish(const Summary &summary, const std::vector<std::string> &scripts)
 
 int Run::stop() const
 {
+  snapshot_.wait();
   return report_stop(folder_);
 }
 

@@ -2,14 +2,28 @@
 
 #include "drivers/common/interrupt.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace bergamo::driver
 {
 
 RunLoop::RunLoop(SnapshotPlan plan, WallClock clock)
-    : plan_(std::move(plan)), snapshot_is_due_(every_wall_time(plan_.interval, std::move(clock)))
+    : plan_(std::move(plan)), clock_(std::move(clock)), last_snapshot_(clock_())
 {
+}
+
+bool RunLoop::snapshot_is_due() const
+{
+  return clock_() - last_snapshot_ >= std::max(plan_.interval, held_up_ / SnapshotPlan::largest_share);
+}
+
+void RunLoop::write_snapshot()
+{
+  const double begin = clock_();
+  plan_.write();
+  last_snapshot_ = clock_();
+  held_up_ = last_snapshot_ - begin;
 }
 
 void RunLoop::visit(StateVisitor &visit)
@@ -28,8 +42,8 @@ bool RunLoop::run(const Stepping &stepping, const std::vector<Action> &actions)
   {
     const bool is_stopped = interrupted() && !stepping.is_last();
     const bool is_looked_at = steps_here_ > 0 && steps_here_ % plan_.steps_between_looks == 0;
-    if ((is_looked_at && snapshot_is_due_({})) || is_stopped)
-      plan_.write();
+    if ((is_looked_at && snapshot_is_due()) || is_stopped)
+      write_snapshot();
     if (is_stopped)
       return false;
     stepping.compute();

@@ -30,9 +30,12 @@ struct Action
 /// When a run writes its snapshot, and what is in it.
 struct SnapshotPlan
 {
-  double interval = 30; ///< of the wall clock, the most that a kill can cost [s]
+  /// Of the wall clock, the most that a kill can cost [s]: where a snapshot holds up the run by more than
+  /// `largest_share` of it, the next one waits longer.
+  double interval = 30;
   std::function<void()> write;
   std::int64_t steps_between_looks = 50; ///< at the clock
+  static constexpr double largest_share = 0.02;
 };
 
 /// The loop of every run, over one stage after the other. A step is: snapshot, when one is due or the user asks the run
@@ -58,8 +61,12 @@ public:
   std::int64_t steps_here() const { return steps_here_; } ///< done by this process, over all stages
 
 private:
+  bool snapshot_is_due() const;
+  void write_snapshot();
+
   SnapshotPlan plan_;
-  Trigger snapshot_is_due_;
+  WallClock clock_;
+  double last_snapshot_, held_up_ = 0; // when, and by how much it held up the run [s]
   std::int64_t step_ = 0, steps_here_ = 0;
   double last_time_ = -std::numeric_limits<double>::infinity();
   bool stage_is_done_ = false;

@@ -38,18 +38,38 @@ Snapshot::Snapshot(std::filesystem::path path, std::string kind, std::string par
 {
 }
 
-void Snapshot::write(const Visit &visit) const
+/// @return what puts it on the disk
+std::function<void()> Snapshot::collect(const Visit &visit) const
 {
   const std::lock_guard guard(archives);
   ArchiveWriter archive(path_, kind_);
   archive.write("parameters", parameters_);
   StateVisitor visitor(archive);
   visit(visitor);
-  archive.commit();
+  return archive.finish();
+}
+
+void Snapshot::write(const Visit &visit) const
+{
+  wait();
+  collect(visit)();
+}
+
+void Snapshot::write_behind(const Visit &visit)
+{
+  wait();
+  behind_ = std::async(std::launch::async, collect(visit));
+}
+
+void Snapshot::wait() const
+{
+  if (behind_.valid())
+    behind_.get();
 }
 
 void Snapshot::read(const Visit &visit) const
 {
+  wait();
   const std::lock_guard guard(archives);
   const ArchiveReader archive(path_, kind_);
   const std::string stored = archive.read_text("parameters");

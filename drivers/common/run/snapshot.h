@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <string>
 
 namespace bergamo::driver
@@ -26,13 +27,23 @@ public:
   /// Puts the file in place, whole or not at all. Throws RunError as ArchiveWriter does.
   void write(const Visit &visit) const;
 
+  /// The same, of which only the visit happens here: the disk is left to another thread. Its errors come at the next
+  /// call, whichever it is; until it is done the file from before stays.
+  void write_behind(const Visit &visit);
+
+  /// Until what was written behind is in place. Throws what came of it.
+  void wait() const;
+
   /// Throws RunError for a damaged or foreign file, ConfigError, naming the first difference, where the parameters are
   /// others than those of the run that wrote it.
   void read(const Visit &visit) const;
 
 private:
+  std::function<void()> collect(const Visit &visit) const;
+
   std::filesystem::path path_;
   std::string kind_, parameters_;
+  mutable std::future<void> behind_; // on its way to the disk; its end waits for that
 };
 
 } // namespace bergamo::driver
