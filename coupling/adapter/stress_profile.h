@@ -19,9 +19,9 @@ struct SlabStress
   Vec3 total() const { return grains + continuum; }
 };
 
-/// Slabs of equal height from the bottom to the top of a box. The grains lie where they are, elements in their
-/// reference configuration, with their mean stress and the mean of their nodes' shares. Of the present step, once its
-/// forces are known. @param n_slabs best as many as layers of elements; @throws ConfigError for none
+/// Slabs of equal height from the bottom to the top of a box, with all that lies beside it: cell_stresses() of a grid
+/// that is cut along z alone; of one slab, with all above and below it, too. Of the present step, once its forces are
+/// known. @throws ConfigError for no slab
 std::vector<SlabStress> stress_profile(const TwoScaleModel &model, const dem::Box &box, unsigned int n_slabs);
 
 /// Of grains alone, between walls or with a part of them taken out; otherwise as above.

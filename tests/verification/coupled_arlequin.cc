@@ -295,8 +295,8 @@ TEST_CASE("pressed grains of which the lower part became a continuum stay where 
   const std::vector<coupling::SlabStress> profile = coupling::stress_profile(held, box, 3);
   const double above = -force_above(held) * box.edges()[2] / box.volume();
   CAPTURE(above, profile[0].total()[2], profile[1].total()[2], profile[2].total()[2]);
-  CHECK(profile[0].grains.norm() < 1e-4 * std::abs(above)); // but for a grain that has sunk through the edge
-  CHECK(profile[2].continuum == Vec3::Zero());
+  CHECK(profile[0].grains.norm() < 1e-4 * std::abs(above));    // but for a grain that has sunk through the edge
+  CHECK(profile[2].continuum.norm() < 1e-4 * std::abs(above)); // but for the way that elements have moved
   CHECK(profile[2].total()[2] == Approx(above).epsilon(2e-3));
   CHECK(profile[1].grains[2] < 0.2 * above); // both are pressed
   CHECK(profile[1].continuum[2] < 0.2 * above);
