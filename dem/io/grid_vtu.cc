@@ -35,22 +35,29 @@ std::array<std::int32_t, 8> nodes_of_cell(const HexahedronGrid &grid, const std:
   return nodes;
 }
 
-} // namespace
-
-void write_grid_vtu(const HexahedronGrid &grid, const std::span<const NodeField> fields,
-                    const std::filesystem::path &path)
+/// @param n values each; @param owners "nodes" or "cells"
+std::vector<VtuArray> arrays_of(const std::span<const GridField> fields, const std::size_t n, const std::string &owners)
 {
-  grid.validate();
-  std::vector<VtuArray> of_nodes;
-  for (const NodeField &field : fields)
+  std::vector<VtuArray> arrays;
+  for (const GridField &field : fields)
     std::visit(
         [&](const auto values)
         {
-          require(values.size() == grid.n_nodes(), ("number of values of the field " + field.name).c_str(),
-                  values.size(), "that of the grid's nodes, " + std::to_string(grid.n_nodes()));
-          of_nodes.push_back(array_of(field.name, values));
+          require(values.size() == n, ("number of values of the field " + field.name).c_str(), values.size(),
+                  "that of the grid's " + owners + ", " + std::to_string(n));
+          arrays.push_back(array_of(field.name, values));
         },
         field.values);
+  return arrays;
+}
+
+} // namespace
+
+void write_grid_vtu(const HexahedronGrid &grid, const GridFields &fields, const std::filesystem::path &path)
+{
+  grid.validate();
+  const std::vector<VtuArray> of_nodes = arrays_of(fields.of_nodes, grid.n_nodes(), "nodes"),
+                              of_cells = arrays_of(fields.of_cells, grid.size(), "cells");
   const VtuArray points{vtu_attributes("Float64", "Points", 3), grid.n_nodes(), 3 * sizeof(double),
                         [&](const std::size_t n, std::byte *out)
                         { put_bytes<double>(out, grid.node(static_cast<std::int32_t>(n))); }};
@@ -65,7 +72,7 @@ void write_grid_vtu(const HexahedronGrid &grid, const std::span<const NodeField>
                          { put_bytes(out, static_cast<std::int64_t>(8 * (cell + 1))); }};
   const VtuArray types{vtu_attributes("UInt8", "types"), grid.size(), sizeof vtk_hexahedron,
                        [](std::size_t, std::byte *out) { put_bytes(out, vtk_hexahedron); }};
-  write_vtu({grid.n_nodes(), grid.size(), points, {connectivity, offsets, types}, of_nodes, {}}, path);
+  write_vtu({grid.n_nodes(), grid.size(), points, {connectivity, offsets, types}, of_nodes, of_cells}, path);
 }
 
 } // namespace bergamo::dem

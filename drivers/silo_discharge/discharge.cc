@@ -28,9 +28,9 @@ dem::OutletParameters outlet_of(const SiloParameters &p)
 void write_field(const dem::HexahedronGrid &grid, const std::vector<Vec3> &velocity,
                  const std::vector<double> &solid_fraction, const std::filesystem::path &path)
 {
-  const dem::NodeField fields[] = {{"velocity", std::span<const Vec3>(velocity)},
+  const dem::GridField fields[] = {{"velocity", std::span<const Vec3>(velocity)},
                                    {"solid_fraction", std::span<const double>(solid_fraction)}};
-  dem::write_grid_vtu(grid, fields, path);
+  dem::write_grid_vtu(grid, {.of_nodes = fields}, path);
 }
 
 } // namespace

@@ -8,11 +8,15 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 using namespace bergamo;
 using namespace bergamo::dem;
 using Catch::Matchers::Contains;
 
-TEST_CASE("a grid is written as hexahedra that fill its box, with the values of its nodes")
+TEST_CASE("a grid is written as hexahedra that fill its box, with the values of its nodes and cells")
 {
   const HexahedronGrid grid{{Vec3(-1., 0., 2.), Vec3(5., 1., 4.)}, {3, 1, 2}};
   std::vector<Vec3> velocity;
@@ -23,9 +27,11 @@ TEST_CASE("a grid is written as hexahedra that fill its box, with the values of 
     height.push_back(grid.node(node).z());
   }
   TemporaryFolder folder;
-  const NodeField fields[] = {{"velocity", std::span<const Vec3>(velocity)},
+  const GridField fields[] = {{"velocity", std::span<const Vec3>(velocity)},
                               {"height", std::span<const double>(height)}};
-  write_grid_vtu(grid, fields, folder / "grid.vtu");
+  const std::vector<double> number{0., 1., 2., 3., 4., std::numeric_limits<double>::quiet_NaN()};
+  const GridField of_cells[] = {{"number", std::span<const double>(number)}};
+  write_grid_vtu(grid, {.of_nodes = fields, .of_cells = of_cells}, folder / "grid.vtu");
   const VtuReader file(content_of(folder / "grid.vtu"));
   REQUIRE(file.n_points == 24);
   REQUIRE(file.n_cells == 6);
@@ -36,6 +42,10 @@ TEST_CASE("a grid is written as hexahedra that fill its box, with the values of 
   for (std::size_t k = 0; k < points.size(); ++k)
     CHECK(values[k] == 2. * points[k]);
   CHECK(file.array<double>("height") == height);
+  const auto numbers = file.array<double>("number");
+  REQUIRE(numbers.size() == 6);
+  CHECK(std::equal(numbers.begin(), numbers.end() - 1, number.begin()));
+  CHECK(std::isnan(numbers.back())); // not known
   CHECK(file.array<std::uint8_t>("types") == std::vector<std::uint8_t>(6, 12));
   for (std::size_t cell = 0; cell < 6; ++cell) // VTK's order: around the lower face, then around the upper one
   {
@@ -52,8 +62,11 @@ TEST_CASE("a field of another grid is refused")
 {
   TemporaryFolder folder;
   const std::vector<double> few(3, 0.);
-  const NodeField fields[] = {{"few", std::span<const double>(few)}};
-  CHECK_THROWS_WITH(write_grid_vtu({}, fields, folder / "grid.vtu"), Contains("field few") && Contains("nodes, 8"));
+  const GridField fields[] = {{"few", std::span<const double>(few)}};
+  CHECK_THROWS_WITH(write_grid_vtu({}, {.of_nodes = fields}, folder / "grid.vtu"),
+                    Contains("field few") && Contains("nodes, 8"));
+  CHECK_THROWS_WITH(write_grid_vtu({}, {.of_cells = fields}, folder / "grid.vtu"),
+                    Contains("field few") && Contains("cells, 1"));
   CHECK_FALSE(std::filesystem::exists(folder / "grid.vtu"));
 }
 
