@@ -1,6 +1,5 @@
 #include "drivers/penetration/pictures.h"
 
-#include "dem/io/contacts_vtu.h"
 #include "dem/io/vtu.h"
 #include "dem/measure/grain_pressure.h"
 #include "drivers/common/run/model_pictures.h"
@@ -24,22 +23,13 @@ void write_grains(const Intrusion &intrusion, const std::filesystem::path &path)
   dem::write_grains_vtu(grains, fields, path, coarse);
 }
 
-void write_contacts(const Intrusion &intrusion, const std::filesystem::path &path)
-{
-  const dem::Simulation &sand = intrusion.sand();
-  std::vector<dem::TouchingContact> contacts = sand.contacts.touching(sand.particles);
-  const std::vector<dem::TouchingContact> walls = sand.contacts.touching_walls(sand.particles);
-  contacts.insert(contacts.end(), walls.begin(), walls.end());
-  dem::write_contacts_vtu(sand.particles, contacts, path);
-}
-
 } // namespace
 
 std::vector<Picture> pictures_of(const Intrusion &intrusion)
 {
   return {{"grains", [&intrusion](const auto &path) { write_grains(intrusion, path); }},
           picture_of_surfaces(intrusion.sand()),
-          {"contacts", [&intrusion](const auto &path) { write_contacts(intrusion, path); }}};
+          picture_of_contacts(intrusion.sand())};
 }
 
 } // namespace bergamo::driver

@@ -1,5 +1,6 @@
 #include "drivers/common/run/model_pictures.h"
 
+#include "dem/io/contacts_vtu.h"
 #include "dem/io/surface_vtu.h"
 #include "dem/io/vtu.h"
 #include "dem/measure/surface_stress.h"
@@ -30,11 +31,24 @@ void write_surfaces(const dem::Simulation &grains, const std::filesystem::path &
   dem::write_surfaces_vtu(grains.surfaces, dem::surface_stress(grains.surfaces, contacts, friction_work), path);
 }
 
+void write_contacts(const dem::Simulation &grains, const std::filesystem::path &path)
+{
+  std::vector<dem::TouchingContact> contacts = grains.contacts.touching(grains.particles);
+  const std::vector<dem::TouchingContact> walls = grains.contacts.touching_walls(grains.particles);
+  contacts.insert(contacts.end(), walls.begin(), walls.end());
+  dem::write_contacts_vtu(grains.particles, contacts, path);
+}
+
 } // namespace
 
 Picture picture_of_surfaces(const dem::Simulation &grains)
 {
   return {"surfaces", [&grains](const auto &path) { write_surfaces(grains, path); }};
+}
+
+Picture picture_of_contacts(const dem::Simulation &grains)
+{
+  return {"contacts", [&grains](const auto &path) { write_contacts(grains, path); }};
 }
 
 std::vector<Picture> pictures_of(const dem::Simulation *grains, const fe::ExplicitBody *body)
