@@ -38,6 +38,7 @@ public:
   void move() { model.drift(); }
   /// @}
 
+  const coupling::TwoScaleModel &models() const { return model; } ///< grains, elements and what joins them
   const dem::Simulation &sand() const { return *model.grains(); }
   const fe::ExplicitBody *body() const { return model.body(); } ///< of elements; none for grains alone
   const dem::SurfaceParts &parts() const { return pile.parts; }

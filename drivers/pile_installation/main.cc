@@ -104,7 +104,7 @@ bool InstallationRun::install()
   };
   const auto look_at_step = [&]
   { stable_step.look(parameters.simulation.time_step, installation->stable_step(), run.progress()); };
-  const auto draw = [&] { pictures.add(stage.time(), pictures_of(*installation)); };
+  const auto draw = [&] { pictures.add(stage.time(), pictures_of(*installation, parameters)); };
   return run.advance(stage, {{evenly(parameters.output.n_samples, n_steps), add_row},
                              {every_steps(std::max<std::int64_t>(1, n_steps / 20)), look_at_step},
                              {evenly(std::max(1u, parameters.output.n_pictures - 1), n_steps), draw}});

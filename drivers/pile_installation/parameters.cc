@@ -91,7 +91,8 @@ void InstallationParameters::declare(ParameterFile &file)
   continuum.declare(file);
   file.add("Continuum", "damping", continuum_damping, "mass-proportional [1/s]", Range::non_negative());
   declare_coupling(file, coupling);
-  output.declare(file, "grains, pile and mesh are");
+  fields.declare(file);
+  output.declare(file, "grains, pile, mesh, contacts and fields are");
 }
 
 void InstallationParameters::validate() const
@@ -102,6 +103,7 @@ void InstallationParameters::validate() const
   installing().validate();
   n_steps();
   validate_pile();
+  fields.validate(sand.box);
   if (is_two_scale())
     validate_plan();
 }

@@ -8,6 +8,7 @@
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "drivers/common/sand_parameters.h"
+#include "drivers/pile_installation/field_parameters.h"
 #include "drivers/pile_installation/ground_plan.h"
 
 #include <cstdint>
@@ -59,6 +60,7 @@ struct InstallationParameters
   ContinuumParameters continuum;
   double continuum_damping = 20.; ///< mass-proportional [1/s]
   coupling::CouplingParameters coupling;
+  FieldParameters fields;
   OutputParameters output;
 
   /// Binds every parameter to its name in the parameter file.

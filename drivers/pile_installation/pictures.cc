@@ -3,6 +3,7 @@
 #include "dem/io/vtu.h"
 #include "dem/measure/grain_pressure.h"
 #include "drivers/common/run/model_pictures.h"
+#include "drivers/pile_installation/fields.h"
 #include "fe_dealii/output.h"
 
 namespace bergamo::driver
@@ -35,10 +36,14 @@ void write_grains(const Installation &installation, const std::filesystem::path 
 
 } // namespace
 
-std::vector<Picture> pictures_of(const Installation &installation)
+std::vector<Picture> pictures_of(const Installation &installation, const InstallationParameters &p)
 {
-  std::vector<Picture> pictures{{"grains", [&installation](const auto &path) { write_grains(installation, path); }},
-                                picture_of_surfaces(installation.sand())};
+  std::vector<Picture> pictures{
+      {"grains", [&installation](const auto &path) { write_grains(installation, path); }},
+      picture_of_surfaces(installation.sand()),
+      picture_of_contacts(installation.sand()),
+      {"solid_fraction", [&](const auto &path) { write_solid_fraction(installation, p, path); }},
+      {"stress", [&](const auto &path) { write_stress(installation, p, path); }}};
   if (const fe::ExplicitBody *body = installation.body())
     pictures.emplace_back("continuum", [body](const auto &path) { fe::write_vtu(*body, path); });
   return pictures;

@@ -9,7 +9,8 @@ namespace bergamo::driver
 {
 
 /// What draws an installation: grains with their weights, mean pressure, displacement and the height at which they were
-/// at first, the pile with what grains exert on it, and the elements. It must not outlive the installation.
-std::vector<Picture> pictures_of(const Installation &installation);
+/// at first, all contacts as lines, the pile with what grains exert on it, the elements, and the fields of solid
+/// fraction and stress. It must not outlive the installation and its parameters.
+std::vector<Picture> pictures_of(const Installation &installation, const InstallationParameters &parameters);
 
 } // namespace bergamo::driver
