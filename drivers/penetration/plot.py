@@ -14,9 +14,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots"))
 import run_data
-from picture import cell_values, last_file, read_vtu
+from picture import last_file
 from run_data import COLOURS
-from slices import cut_at, segments_of, slice_of
+from slices import chains_near, cut_at, segments_of, slice_of
 
 
 def draw_resistance(folder):
@@ -48,16 +48,6 @@ def draw_resistance(folder):
         axes.legend(fontsize=8)
     force.set_title(run_data.title_of(folder), loc="left")
     run_data.save_diagram(figure, folder, "penetration.png")
-
-
-def chains_near(path, thickness):
-    """Branches of the contacts within a slab about y = 0, x and z in mm, and their normal forces."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    grid = read_vtu(path)
-    places = vtk_to_numpy(grid.GetPoints().GetData()).reshape(-1, 2, 3) * 1e3
-    force = cell_values(grid, "normal_force")
-    near = np.abs(places[:, :, 1]).max(axis=1) < 0.5 * thickness
-    return places[near][:, :, [0, 2]], force[near]
 
 
 def draw_chains(folder):

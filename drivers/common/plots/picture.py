@@ -31,13 +31,19 @@ def ensure_display():
     os.execv(xvfb_run, [xvfb_run, "-a", "-s", "-screen 0 1280x1024x24", "/usr/bin/python3", "-B"] + sys.argv)
 
 
-def last_file(folder, kind):
-    """The file of this kind with the highest number, or nothing."""
+def numbered_files(folder, kind):
+    """The files of this kind, by their numbers."""
     def number(path):
         digits = re.findall(r"\d+", os.path.basename(path))
         return int(digits[-1]) if digits else -1
     files = glob.glob(os.path.join(glob.escape(folder), f"{kind}_*.vtu"))
-    return max(files, key=lambda path: (number(path), path), default=None)
+    return sorted(files, key=lambda path: (number(path), path))
+
+
+def last_file(folder, kind):
+    """The file of this kind with the highest number, or nothing."""
+    files = numbered_files(folder, kind)
+    return files[-1] if files else None
 
 
 def read_vtu(path):

@@ -126,21 +126,22 @@ def mark_stages(axes, time, columns):
 
 
 def picture_path(folder, name):
-    """The path of a picture in the run's folder plots/, which is made."""
-    plots = os.path.join(folder, "plots")
+    """The path of a picture in the run's folder plots/, which is made, as a folder in the name is."""
+    path = os.path.join(folder, "plots", name)
+    plots = os.path.dirname(path)
     try:
         os.makedirs(plots, exist_ok=True)
     except OSError as error:
         fail(f"{plots}: {error.strerror}; the run's folder must be writable")
-    return os.path.join(plots, name)
+    return path
 
 
-def save_diagram(figure, folder, name):
+def save_diagram(figure, folder, name, dots_per_inch=150):
     """Saves a PNG whole or not at all, and prints its path."""
     path = picture_path(folder, name)
     part = path + ".part"
     try:
-        figure.savefig(part, dpi=150, format="png")
+        figure.savefig(part, dpi=dots_per_inch, format="png")
         os.replace(part, path)
     except OSError as error:
         fail(f"{path}: {error.strerror}")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from picture import read_vtu
+from picture import cell_values, read_vtu
 
 
 def cut_at(path, y):
@@ -40,3 +40,22 @@ def slice_of(path, fields, y=0):
         outlines.append(outline[np.argsort(np.arctan2(around[:, 1], around[:, 0]))])
         first_rows.append(rows[0])
     return outlines, [vtk_to_numpy(data.GetArray(field))[first_rows] for field in fields]
+
+
+def chains_near(path, thickness):
+    """Branches of the contacts within a slab about y = 0, x and z in mm, and their normal forces."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    grid = read_vtu(path)
+    places = vtk_to_numpy(grid.GetPoints().GetData()).reshape(-1, 2, 3) * 1e3
+    force = cell_values(grid, "normal_force")
+    near = np.abs(places[:, :, 1]).max(axis=1) < 0.5 * thickness
+    return places[near][:, :, [0, 2]], force[near]
+
+
+def grid_of(path, field):
+    """Of a grid with one layer of cells along y: its planes across x and z in mm, and a field by row and column."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    grid = read_vtu(path)
+    places = np.round(vtk_to_numpy(grid.GetPoints().GetData()) * 1e3, 9)
+    x, z = np.unique(places[:, 0]), np.unique(places[:, 2])
+    return x, z, cell_values(grid, field).reshape(len(z) - 1, len(x) - 1)
