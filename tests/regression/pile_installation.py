@@ -5,13 +5,16 @@ Usage: pile_installation.py PROGRAM [TOPIC]
 """
 
 import json
+import math
 import signal
+import struct
 import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 from driver_process import OneThreadCase, SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
+from vtu_file import read_vtu
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 FOLDER = Path(__file__).resolve().parents[2] / "drivers" / "pile_installation"
@@ -20,6 +23,23 @@ FRICTION = 0.1  # between grains and pile
 GRAINS_ALONE = ["Model/kind=grains"]
 SHORT = ["Pile/time=8e-3", "Output/samples=40"]
 GROWING = [*SHORT, "Model/block depth=7.4e-3", "Model/growth depth=2.6e-3", "Model/beyond bottom=4e-3"]
+FIELD_FILES = ("grains_0001.vtu", "surfaces_0001.vtu", "contacts_0001.vtu", "solid_fraction_0001.vtu", "stress_0001.vtu")
+
+
+class Field:
+    """Cells of a layer of hexahedra, by their centres x and z [m]."""
+
+    def __init__(self, path, name):
+        arrays = read_vtu(path)
+        planes = [sorted({round(place, 12) for place in arrays["Points"][axis::3]}) for axis in range(3)]
+        self.breadth = planes[1][-1] - planes[1][0]
+        self.x, self.z = ([0.5 * (low + high) for low, high in zip(p, p[1:])] for p in (planes[0], planes[2]))
+        self.edge = planes[0][1] - planes[0][0]
+        self.values = {(x, z): arrays[name][i + len(self.x) * k] for k, z in enumerate(self.z) for i, x in enumerate(self.x)}
+
+    def mean(self, wanted=lambda x, z: True):
+        values = [value for place, value in self.values.items() if wanted(*place)]
+        return sum(values) / len(values)
 
 
 class Case(OneThreadCase):
@@ -42,15 +62,36 @@ class Case(OneThreadCase):
         self.assertGreater(work, 0)
         self.assertLess(figures["energy_residual"], 1e-4 + 0.02 * brought / work)
 
+    def force_on_row(self, name, number, z):
+        """That the row of cells about a height bears at one of the pictures, downwards [N]."""
+        stress = Field(self.tmp / name / f"stress_{number:04d}.vtu", "stress_zz")
+        return -sum(stress.values[x, z] for x in stress.x) * stress.edge * stress.breadth
+
+    def check_weight(self, name, figures, tolerance):
+        """At the start each row of cells bears the weight of the sand above its middle; from three grains below the level on,
+        which tells nothing of the uppermost grains."""
+        stress = Field(self.tmp / name / "stress_0000.vtu", "stress_zz")
+        level, weight = figures["sand_level_m"], figures["sand_bulk_density_kg_m3"] * 9.81 * 0.024 * 0.0045
+        deep = [z for z in stress.z if z < level - 3.5e-3]
+        self.assertGreaterEqual(len(deep), 5)
+        for z in deep:
+            above = weight * (level - z)
+            self.assertAlmostEqual(self.force_on_row(name, 0, z), above, delta=tolerance * above, msg=f"{name} at {z} m")
+        for z in filter(lambda z: z > figures["sand_height_m"] + 1e-3, stress.z):
+            self.assertLess(max(abs(stress.values[x, z]) for x in stress.x), 1e-9)
+
 
 class Results(Case):
+    SAND = 1555  # density of the settled sand in bulk [kg/m3]
+
     def test_two_scales_and_grains(self):
         """The same sand: what the pile meets and what the ground bears is alike."""
         command = self.command(self.tmp / "two")
         command.remove("--no-plots")
         self.check_success(subprocess.run(command, capture_output=True, text=True))
-        for picture in ("resistance", "section", "energy"):
+        for picture in ("resistance", "section", "fields", "chains", "energy"):
             self.assertTrue((self.tmp / "two" / "plots" / f"{picture}.png").exists())
+        self.check_film(self.tmp / "two")
         figures = {"two": json.loads((self.tmp / "two" / "summary.json").read_text()),
                    "alone": self.figures("alone", GRAINS_ALONE)}
         rows = {name: self.table(name) for name in figures}
@@ -78,16 +119,84 @@ class Results(Case):
         self.assertAlmostEqual(rows["two"][first]["head_resistance_N"], rows["alone"][first]["head_resistance_N"],
                                delta=0.05 * rows["alone"][first]["head_resistance_N"])
         self.assertGreater(rows["two"][-1]["largest_element_motion_m"], 1e-6)
+        self.check_pile_in_fields(figures)
+
+    def check_film(self, folder):
+        """A frame of each picture, all of one size, and none unless asked for."""
+        self.assertFalse((folder / "plots" / "film").exists())
+        subprocess.run(["/usr/bin/python3", "-B", FOLDER / "plot.py", folder, "--film"], check=True, capture_output=True)
+        sizes = [struct.unpack(">II", frame.read_bytes()[16:24]) for frame in sorted((folder / "plots/film").iterdir())]
+        self.assertEqual(len(sizes), len(list(folder.glob("stress_*.vtu"))))
+        self.assertEqual(len(set(sizes)), 1)
+        self.assertEqual([length % 2 for length in sizes[0]], [0, 0])  # as films of most formats have it
+
+    def check_pile_in_fields(self, figures):
+        """Each row of cells below the tip bears what the pile is pressed with, through the overlap, too. The pressure has
+        grown most of all there; the strongest contact is stronger; nothing is denser than grains can be."""
+        for name in figures:
+            folder = self.tmp / name
+            start, end = (Field(folder / f"stress_000{n}.vtu", "pressure") for n in (0, 1))
+            tip = figures[name]["sand_level_m"] - figures[name]["depth_m"]
+            for z in filter(lambda z: z < tip - 2e-3, end.z):
+                grown = self.force_on_row(name, 1, z) - self.force_on_row(name, 0, z)
+                self.assertAlmostEqual(grown, figures[name]["head_resistance_N"],  # waves under way; the sand still swings
+                                       delta=0.25 * figures[name]["head_resistance_N"], msg=f"{name} at {z} m")
+            below = lambda x, z: abs(x) < 2e-3 and tip - 4e-3 < z < tip
+            beside = lambda x, z: abs(x) > 8e-3 and tip - 4e-3 < z < tip
+            self.assertGreater(end.mean(below), 2 * start.mean(below))
+            self.assertGreater(end.mean(below), 2 * end.mean(beside))
+            self.assertGreater(min(end.values.values()), -1e-9)
+            grains, continuum = (Field(folder / "stress_0001.vtu", f"pressure_of_{part}") for part in ("grains", "continuum"))
+            self.assertEqual(max(continuum.values.values()) > 0, name == "two")
+            for place, pressure in end.values.items():
+                self.assertAlmostEqual(grains.values[place] + continuum.values[place], pressure, delta=1e-9)
+            self.assertGreater(min(Field(folder / "stress_0001.vtu", "deviatoric_stress").values.values()), -1e-9)
+            fractions = [f for f in Field(folder / "solid_fraction_0001.vtu", "solid_fraction").values.values()
+                         if not math.isnan(f)]
+            self.assertLess(max(fractions), 0.8)
+            self.assertEqual(min(fractions), 0)  # above the sand
+            contacts, before = (read_vtu(folder / f"contacts_000{n}.vtu") for n in (1, 0))
+            self.assertGreater(max(contacts["normal_force"]), max(before["normal_force"]))
+            self.assertGreaterEqual(min(contacts["normal_force"]), 0)
 
     def test_no_pile(self):
         """Ground that is left alone stays where it is as that of grains alone does: the start is in equilibrium."""
-        at_rest = ["Pile/speed=0", "Pile/time=4e-3", "Sand/Settling/time=0.1"]
+        at_rest = ["Pile/speed=0", "Pile/time=4e-3", "Sand/Settling/time=0.1", f"Continuum/density={self.SAND}"]
         two, alone = self.figures("two", at_rest), self.figures("alone", at_rest + GRAINS_ALONE)
         self.assertEqual(two["pile_work_J"], 0)
         self.assertEqual(max(row["head_resistance_N"] for row in self.table("two")), 0)
         # Of a grain. Settled sand goes on swinging; the cut and the elements may add a thousandth.
         self.assertLess(alone["drift_over_grain"], 5e-3)
         self.assertLess(two["drift_over_grain"], alone["drift_over_grain"] + 1e-3)
+        self.check_fields_at_rest(two, alone)
+
+    def check_fields_at_rest(self, two, alone):
+        """Ground that stands still bears its weight, inside of the overlap as well as outside."""
+        self.assertAlmostEqual(alone["sand_bulk_density_kg_m3"], self.SAND, delta=0.02 * self.SAND)
+        self.check_weight("alone", alone, 0.03)  # as well as it rests
+        self.check_weight("two", two, 0.06)  # half of it elements, which go higher by 5 % and are the less dense
+        # In the overlap neither model bears it alone. Columns of its cells at the sides, and its row at the bottom.
+        block = {"side": lambda x, z: 4e-3 < abs(x) < 8e-3 and 6e-3 < z < 10e-3,
+                 "bottom": lambda x, z: abs(x) < 4e-3 and 4e-3 < z < 6e-3}
+        for place, inside in block.items():
+            stress = Field(self.tmp / "two" / "stress_0000.vtu", "stress_zz")
+            depth = two["sand_level_m"] - (8e-3 if place == "side" else 5e-3)
+            weight = two["sand_bulk_density_kg_m3"] * 9.81 * depth
+            self.assertAlmostEqual(-stress.mean(inside), weight, delta=0.1 * weight, msg=place)  # some ten grains a cell
+            for part in ("pressure_of_grains", "pressure_of_continuum"):
+                self.assertGreater(Field(self.tmp / "two" / "stress_0000.vtu", part).mean(inside), 0.1 * weight)
+        # The same sand: where grains are alone, the same fields but for the step in which the block is cut out.
+        own = lambda x, z: abs(x) < 4e-3 and z > 8e-3
+        stress, expected = (Field(self.tmp / name / "stress_0000.vtu", "pressure") for name in ("two", "alone"))
+        self.assertEqual(stress.values.keys(), expected.values.keys())
+        greatest = max(expected.values.values())
+        for cell in filter(lambda place: own(*place), expected.values):
+            self.assertAlmostEqual(stress.values[cell], expected.values[cell], delta=0.01 * greatest)
+        fraction, expected = (Field(self.tmp / name / "solid_fraction_0000.vtu", "solid_fraction") for name in ("two", "alone"))
+        known = [cell for cell, value in fraction.values.items() if not math.isnan(value)]
+        self.assertTrue(30 < len(known) < 0.6 * len(expected.values))
+        for cell in known:
+            self.assertAlmostEqual(fraction.values[cell], expected.values[cell], delta=1e-6)
 
     def test_growing_block(self):
         """A block that grows downwards as the pile comes near its end: grains come, nothing else happens. On two
@@ -134,7 +243,7 @@ class Restart(Case):
                       self.command(parts, short, *options), send)
             options = [*SNAPSHOTS_BY_STEPS, "--restart"]
         self.check_success(self.run_driver(parts, short, *options))
-        for file in ("history.csv", "grains_0001.vtu", "surfaces_0001.vtu"):
+        for file in ("history.csv", *FIELD_FILES, "stress.pvd"):
             self.assertEqual((parts / file).read_bytes(), (self.tmp / "whole" / file).read_bytes(), file)
         self.assert_same_results("parts", "whole")
 
@@ -156,6 +265,9 @@ class BadInput(Case):
                                ("Model/growth=0.5", ("Model/growth",)),
                                ("Model/growth depth=-1", ("Model/growth depth",)),
                                ("Model/growth depth=3e-3", ("may grow to", "Sand/box")),
+                               ("Fields/sphere radius=3e-3", ("Fields/sphere radius is 0.003 m", "at most 0.00225")),
+                               ("Fields/stress cell=0.03", ("Fields/stress cell is 0.03 m", "Sand/box, 0.024 m")),
+                               ("Fields/spacing=1e-6", ("Fields/spacing", "more than a million cells")),
                                ("Coupling/penalty=-1", ("Coupling/penalty",)),
                                ("Continuum/Young's modulus=1e11", ("Pile/time step is 6e-06 s", "elements"))):
             with self.subTest(setting):
