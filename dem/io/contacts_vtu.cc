@@ -2,6 +2,7 @@
 
 #include "dem/io/vtk_cell.h"
 #include "dem/io/vtu_writer.h"
+#include "dem/measure/contact_list.h"
 
 #include <cstdint>
 
@@ -52,6 +53,12 @@ void write_contacts_vtu(const Particles &particles, const std::span<const Touchi
       array(vtu_attributes("Float32", "tangential_force", 3), 3 * sizeof(float),
             [contacts](const std::size_t c, std::byte *out)
             { put_bytes<float>(out, contacts[c].state.weight * contacts[c].state.forces.tangential); });
+  const VtuArray normal =
+      array(vtu_attributes("Float32", "normal", 3), 3 * sizeof(float),
+            [contacts](const std::size_t c, std::byte *out) { put_bytes<float>(out, contacts[c].state.normal); });
+  const VtuArray place = array(vtu_attributes("Float64", "point", 3), 3 * sizeof(double),
+                               [contacts, &particles](const std::size_t c, std::byte *out)
+                               { put_bytes<double>(out, contact_point(contacts[c], particles)); });
   write_vtu({2 * n,
              n,
              points,
@@ -59,7 +66,7 @@ void write_contacts_vtu(const Particles &particles, const std::span<const Touchi
              {},
              {id("first", &TouchingContact::first), id("second", &TouchingContact::second),
               scalar("normal_force", [](const ContactView &s) { return s.weight * s.forces.normal; }), tangential,
-              scalar("overlap", [](const ContactView &s) { return s.overlap; })}},
+              normal, place, scalar("overlap", [](const ContactView &s) { return s.overlap; })}},
             path);
 }
 

@@ -108,6 +108,8 @@ TEST_CASE("contacts are written as lines between centres, and to walls, with the
   contacts[0].branch = Vec3(2., 4., 0.);
   contacts[0].state.weight = 0.5;
   contacts[0].state.forces = {Vec3(0., 0., 6.), 3.};
+  contacts[0].state.normal = Vec3(0., 0.5, 0.25);
+  contacts[0].state.point = Vec3(0., 0., 0.125);
   contacts[0].state.overlap = 0.25;
   contacts[1].first = 1;
   contacts[1].second = no_grain;
@@ -125,5 +127,8 @@ TEST_CASE("contacts are written as lines between centres, and to walls, with the
   CHECK(file.array<std::int64_t>("second") == std::vector<std::int64_t>{6, -1});
   CHECK(file.array<float>("normal_force") == std::vector<float>{1.5f, 0.f});
   CHECK(file.array<float>("tangential_force") == std::vector<float>{0.f, 0.f, 3.f, 0.f, 0.f, 0.f});
+  CHECK(file.array<float>("normal") == std::vector<float>{0.f, 0.5f, 0.25f, 0.f, 0.f, 0.f});
+  CHECK(file.array<double>("point") ==
+        std::vector<double>{1., 2., 0.125, 1., 2., -1.}); // off the middle; the wall's end
   CHECK(file.array<float>("overlap") == std::vector<float>{0.25f, 0.f});
 }
