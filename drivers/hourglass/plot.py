@@ -7,7 +7,6 @@ RUN_FOLDER/plots/grains.png.
 """
 
 import argparse
-import glob
 import os
 import sys
 from pathlib import Path
@@ -61,7 +60,7 @@ def glass_profile(parameters):
 
 def draw_grains(folder):
     from matplotlib.collections import PolyCollection
-    files = sorted(glob.glob(os.path.join(glob.escape(folder), "grains_*.vtu")))
+    files = run_data.pictures_of(folder, "grains").paths
     if not files:
         return
     shown = [files[k] for k in np.unique(np.linspace(0, len(files) - 1, 4).round().astype(int))]

@@ -13,7 +13,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots"))
 import run_data
-from surface_faces import add_view, read_series, read_surface
+from surface_faces import add_view
 
 N_TIMES = 5
 HIGHEST = 2  # pressure over lateral pressure, of the colours
@@ -37,15 +37,14 @@ def main():
     parser.add_argument("run_folder", metavar="RUN_FOLDER")
     folder = parser.parse_args().run_folder
     history, shape = run_data.read_history(folder), run_data.read_table(folder, "shape.csv")
-    series = read_series(folder)
+    series = run_data.pictures_of(folder, "surfaces")
     run_data.new_diagram_look()
     from matplotlib import pyplot
     figure, (outlines, first, last) = pyplot.subplots(1, 3, figsize=(11, 5.5), layout="constrained")
     draw_outlines(outlines, shape, history["axial_strain"][:len(shape["time_s"])])
-    for axes, (time, path) in ((first, series[0]), (last, series[-1])):
-        corners, pressure = read_surface(path)
-        faces = add_view(axes, corners, pressure / history["lateral_pressure_Pa"][-1], 1, HIGHEST, looks=1)
-        strain = np.interp(time, history["time_s"], history["axial_strain"])
+    for axes, membrane in ((first, series[0]), (last, series[-1])):
+        faces = add_view(axes, membrane.corners, membrane.smooth_pressure / history["lateral_pressure_Pa"][-1], 1, HIGHEST, looks=1)
+        strain = np.interp(membrane.time, history["time_s"], history["axial_strain"])
         axes.set_title(f"axial strain {100 * strain:.1f} %", fontsize=10)
         axes.set_xlabel("x in mm")
     for axes in (first, last):

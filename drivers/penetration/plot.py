@@ -57,7 +57,7 @@ def draw_chains(folder):
         return
     outlines, [pressure, sinking] = slice_of(grains, ["pressure", "sinking"])
     size = np.median([np.ptp(outline, axis=0).max() for outline in outlines])
-    branches, force = chains_near(contacts, 3 * size)
+    branches, force = chains_near(run_data.pictures_of(folder, "contacts")[-1], 3 * size)
     intruder = segments_of(cut_at(surfaces, 0))
     figure, [panels] = run_data.new_panels(1, 2)
     figure.set_size_inches(14, 4.2)

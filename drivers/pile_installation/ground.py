@@ -3,7 +3,7 @@
 import numpy as np
 
 from picture import numbered_files, read_vtu
-from run_data import read_parameters
+from run_data import pictures_of, read_parameters
 from slices import chains_near, cut_at, grid_of, segments_of, slice_of
 
 
@@ -27,10 +27,12 @@ class Ground:
 
     def __init__(self, folder, number):
         self.files = {}
-        for kind in ("grains", "surfaces", "contacts", "continuum", "solid_fraction", "stress"):
+        for kind in ("grains", "surfaces", "continuum", "solid_fraction", "stress"):
             files = numbered_files(folder, kind)
             if number < len(files):
                 self.files[kind] = files[number]
+        contacts = pictures_of(folder, "contacts")
+        self.contacts = contacts[number] if number < len(contacts) else None
         parameters = read_parameters(folder)
         self.sphere_radius = 1e3 * float(parameters["Fields/sphere radius"])
         self.mean_grain = 2e3 * np.mean([float(axis) for axis in parameters["Sand/mean half-axes"].split(",")])
@@ -59,7 +61,7 @@ class Ground:
 
     def chains(self):
         """Branches of the contacts in a slab three grains thick, and their normal forces in N."""
-        return chains_near(self.files["contacts"], 3 * self.mean_grain)
+        return chains_near(self.contacts, 3 * self.mean_grain)
 
     def solid_fraction(self):
         """Not a number where a sampling sphere is not in grains alone: it reaches into the pile or out of their ground."""

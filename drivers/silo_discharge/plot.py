@@ -17,8 +17,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common" / "plots"))
 import run_data
-from picture import read_vtu
-from run_data import COLOURS
+from run_data import COLOURS, bergamo
 
 CHOI, DISSERTATION = 141.1, 132.6  # g/s, section 3.5
 SLOT = 1.5  # power of the effective width in Beverloo's law
@@ -57,11 +56,8 @@ def draw_discharge(folder, has_choi_orifice):
 def middle_of_field(path):
     """Places x, z and velocities of the nodes behind the front and before the back, the mean of both, and where there
     are grains."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    grid = read_vtu(path)
-    places = vtk_to_numpy(grid.GetPoints().GetData())
-    velocity = vtk_to_numpy(grid.GetPointData().GetArray("velocity"))
-    solid = vtk_to_numpy(grid.GetPointData().GetArray("solid_fraction"))
+    field = bergamo.read_vtu(path)
+    places, velocity, solid = field.points, field["velocity"], field["solid_fraction"]
     x, y, z = (np.unique(places[:, d]) for d in range(3))
     shape = len(z), len(y), len(x)
     return x, z, velocity.reshape(*shape, 3).mean(axis=1), solid.reshape(shape).mean(axis=1)
@@ -96,13 +92,9 @@ def draw_velocity(folder):
     run_data.save_diagram(figure, folder, "velocity.png")
 
 
-def front_beads(path, depth):
+def front_beads(beads, depth):
     """Places x, z, diameters and starting heights of the first layer of beads behind the front, in cm."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    grid = read_vtu(path)
-    places = vtk_to_numpy(grid.GetPoints().GetData())
-    diameter = vtk_to_numpy(grid.GetPointData().GetArray("diameter"))
-    height = vtk_to_numpy(grid.GetPointData().GetArray("start_height"))
+    places, diameter, height = beads.position, beads.diameter, beads["start_height"]
     front = np.flatnonzero(places[:, 1] < -0.5 * depth + diameter.max())
     front = front[np.argsort(-places[front, 1])]  # the nearest are drawn last
     return places[front][:, [0, 2]] * 1e2, diameter[front] * 1e2, height[front] * 1e2
@@ -110,13 +102,13 @@ def front_beads(path, depth):
 
 def draw_grains(folder, depth):
     from matplotlib.collections import EllipseCollection
-    files = sorted(glob.glob(os.path.join(glob.escape(folder), "grains_*.vtu")))
-    if not files:
+    series = run_data.pictures_of(folder, "grains")
+    if not series:
         return
-    shown = [files[k] for k in np.unique(np.linspace(0, len(files) - 1, 4).round().astype(int))]
+    shown = [series[k] for k in np.unique(np.linspace(0, len(series) - 1, 4).round().astype(int))]
     run_data.new_diagram_look()
     from matplotlib import pyplot
-    beads = [front_beads(path, depth) for path in shown]
+    beads = [front_beads(grains, depth) for grains in shown]
     limits = np.array([beads[0][0].min(axis=0), beads[0][0].max(axis=0)]) + beads[0][1].max() * np.array([[-1], [1]])
     wide, high = limits[1] - limits[0]
     figure, panels = pyplot.subplots(1, len(shown), squeeze=False, sharey=True, layout="constrained",

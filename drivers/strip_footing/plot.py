@@ -6,8 +6,6 @@ Reads history.csv, summary.json and the last continuum_*.vtu and writes RUN_FOLD
 """
 
 import argparse
-import glob
-import os
 import sys
 from pathlib import Path
 
@@ -20,28 +18,18 @@ from run_data import COLOURS
 
 def last_mesh(folder):
     """Faces of the front (four corners each, x and z), and the plastic strain of their elements."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-    files = sorted(glob.glob(os.path.join(glob.escape(folder), "continuum_*.vtu")))
-    if not files:
+    series = run_data.pictures_of(folder, "continuum")
+    if not series:
         run_data.fail(f"{folder} has no continuum_*.vtu")
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(files[-1])
-    reader.Update()
-    grid = reader.GetOutput()
-    places = vtk_to_numpy(grid.GetPoints().GetData())
-    displacement = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
-    strain_at_points = vtk_to_numpy(grid.GetPointData().GetArray("equivalent_plastic_strain"))  # one value a cell
-    faces, strain = [], []
-    for cell in range(grid.GetNumberOfCells()):
-        points = grid.GetCell(cell).GetPointIds()
-        ids = np.array([points.GetId(k) for k in range(8)])  # the corners come first in quadratic cells, too
-        front = ids[np.argsort(places[ids, 1], kind="stable")[:4]]
+    ground, faces = series[-1], []
+    places = ground.reference
+    for element in ground.element:
+        corners = element[:8]  # they come first in quadratic cells, too
+        front = corners[np.argsort(places[corners, 1], kind="stable")[:4]]
         x, z = places[front, 0], places[front, 2]
         around = np.argsort(np.arctan2(z - z.mean(), x - x.mean()))
-        strain.append(strain_at_points[ids[0]])
-        faces.append((places + displacement)[front[around]][:, [0, 2]])
-    return np.array(faces), np.array(strain)
+        faces.append(ground.node[front[around]][:, [0, 2]])
+    return np.array(faces), ground["equivalent_plastic_strain"]
 
 
 def main():

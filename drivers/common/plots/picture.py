@@ -7,13 +7,12 @@ Needs no screen: without DISPLAY the script starts itself anew under xvfb-run.
 """
 
 import argparse
-import glob
 import os
-import re
 import shutil
 import sys
 
 import run_data
+from run_data import bergamo
 
 SIZE = (1600, 1200)  # pixels
 SAND = [(0.84, 0.72, 0.53), (0.76, 0.62, 0.43), (0.90, 0.80, 0.63), (0.69, 0.57, 0.42), (0.87, 0.70, 0.47),
@@ -33,11 +32,7 @@ def ensure_display():
 
 def numbered_files(folder, kind):
     """The files of this kind, by their numbers."""
-    def number(path):
-        digits = re.findall(r"\d+", os.path.basename(path))
-        return int(digits[-1]) if digits else -1
-    files = glob.glob(os.path.join(glob.escape(folder), f"{kind}_*.vtu"))
-    return sorted(files, key=lambda path: (number(path), path))
+    return [str(path) for path in run_data.pictures_of(folder, kind).paths]
 
 
 def last_file(folder, kind):
@@ -47,11 +42,11 @@ def last_file(folder, kind):
 
 
 def read_vtu(path):
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(path)
-    reader.Update()
-    grid = reader.GetOutput()
+    """A file with cells as VTK's own object, to be cut and drawn by VTK."""
+    try:
+        grid = bergamo.read_grid(path)
+    except bergamo.Error as error:
+        run_data.fail(error)
     if grid.GetNumberOfCells() == 0:
         run_data.fail(f"{path} has no cells")
     return grid

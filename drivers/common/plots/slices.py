@@ -42,14 +42,11 @@ def slice_of(path, fields, y=0):
     return outlines, [vtk_to_numpy(data.GetArray(field))[first_rows] for field in fields]
 
 
-def chains_near(path, thickness):
+def chains_near(contacts, thickness):
     """Branches of the contacts within a slab about y = 0, x and z in mm, and their normal forces."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    grid = read_vtu(path)
-    places = vtk_to_numpy(grid.GetPoints().GetData()).reshape(-1, 2, 3) * 1e3
-    force = cell_values(grid, "normal_force")
+    places = np.stack([contacts.start, contacts.start + contacts.branch], axis=1) * 1e3
     near = np.abs(places[:, :, 1]).max(axis=1) < 0.5 * thickness
-    return places[near][:, :, [0, 2]], force[near]
+    return places[near][:, :, [0, 2]], contacts.normal_force[near]
 
 
 def grid_of(path, field):

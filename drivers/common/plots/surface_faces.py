@@ -1,41 +1,6 @@
-"""What draws the faces of a run's surfaces: reading surfaces_*.vtu, and views of their triangles."""
-
-import os
-import re
-from pathlib import Path
+"""Views of the triangles of a run's surfaces."""
 
 import numpy as np
-
-import run_data
-
-
-def read_series(folder):
-    """Times [s] and files of the surfaces."""
-    path = os.path.join(folder, "surfaces.pvd")
-    try:
-        text = Path(path).read_text()
-    except OSError as error:
-        run_data.fail(f"{path}: {error.strerror}; name the folder of a run")
-    entries = re.findall(r'timestep="([^"]*)"[^>]*file="([^"]*)"', text)
-    return [(float(time), os.path.join(folder, file)) for time, file in entries]
-
-
-def read_surface(path):
-    """Corners of the triangles, (n, 3, 3) [m], and their pressures [Pa], each the mean of those of its nodes: a node has
-    the forces of its triangles over their areas."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(path)
-    reader.Update()
-    grid = reader.GetOutput()
-    places = vtk_to_numpy(grid.GetPoints().GetData())
-    triangles = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 3)
-    corners = places[triangles]
-    areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    forces = vtk_to_numpy(grid.GetCellData().GetArray("pressure")) * areas
-    of_nodes = [np.bincount(triangles.ravel(), np.repeat(values, 3), len(places)) for values in (forces, areas)]
-    return corners, (of_nodes[0] / of_nodes[1])[triangles].mean(axis=1)
 
 
 def add_view(axes, corners, values, axis, highest, looks=-1):
