@@ -1,0 +1,66 @@
+"""Runs of Bergamo in a terminal: python3 -m bergamo show | watch | compare ..."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+from . import open_run
+from .compare import check_columns, compare, draw
+from .errors import Error
+from .show import show
+from .watch import Watch
+
+FINISHED, INTERRUPTED, WRONG, STOPPED = 0, 1, 2, 130
+
+
+def parser() -> argparse.ArgumentParser:
+    whole = argparse.ArgumentParser(prog="python3 -m bergamo", description="Shows, watches and compares runs of Bergamo.")
+    commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    one = commands.add_parser("show", help="what is in a run's folder")
+    one.add_argument("run", metavar="RUN")
+    two = commands.add_parser("watch", help="follow a run until it ends; status 1 where it was interrupted")
+    two.add_argument("run", metavar="RUN")
+    two.add_argument("--interval", type=float, default=1., metavar="SECONDS", help="between two looks (default 1)")
+    two.add_argument("--columns", default="", metavar="A,B", help="of the history, to show (default: the first four)")
+    three = commands.add_parser("compare", help="draw two runs over one another and print how they differ")
+    three.add_argument("runs", nargs=2, metavar="RUN")
+    three.add_argument("--output", default="comparison.png", metavar="PNG", help="default comparison.png")
+    three.add_argument("--columns", default="", metavar="A,B", help="of the histories, to draw (default: all)")
+    return whole
+
+
+def run_command(words: argparse.Namespace) -> int:
+    columns = [name for name in getattr(words, "columns", "").split(",") if name]
+    if words.command == "show":
+        print(show(open_run(words.run)))
+    elif words.command == "watch":
+        if not words.interval > 0:
+            raise Error(f"--interval is {words.interval}; give a number of seconds above 0")
+        return FINISHED if Watch(sys.stdout, words.interval, columns).follow(open_run(words.run)) else INTERRUPTED
+    else:
+        first, second = map(open_run, words.runs)
+        check_columns((first, second), columns)
+        print(compare(first, second))
+        print(draw(first, second, words.output, columns))
+    return FINISHED
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    try:
+        return run_command(parser().parse_args(arguments))
+    except BrokenPipeError:  # whoever reads has had enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FINISHED
+    except (Error, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return WRONG
+    except KeyboardInterrupt:
+        print(file=sys.stderr)
+        return STOPPED
+
+
+if __name__ == "__main__":
+    sys.exit(main())
