@@ -197,10 +197,13 @@ class Damaged(FolderCase):
     def test_truncated_and_foreign_files(self):
         path = run_of(*PENETRATION) / "grains_0000.vtu"
         content = path.read_bytes()
-        for name, data in (("short", content[:-100]), ("empty", b""), ("foreign", b"solid </VTKFile>")):
+        at = content.index(b'Name="connectivity"')
+        other = content[:at] + content[at:].replace(b'Name="connectivity"', b'Name="disconnected"', 1)
+        for name, data, word in (("short", content[:-100], "does not end"), ("empty", b"", "does not begin"),
+                                 ("foreign", b"solid </VTKFile>", "does not begin"), ("other", other, "VTK cannot read it")):
             damaged = self.tmp / f"{name}_0000.vtu"
             damaged.write_bytes(data)
-            with self.assertRaises(bergamo.DamagedFile):
+            with self.assertRaisesRegex(bergamo.DamagedFile, word):
                 bergamo.read_vtu(damaged)
         (self.tmp / "grains_0000.vtu").write_bytes((run_of(*PENETRATION) / "contacts_0000.vtu").read_bytes())
         with self.assertRaisesRegex(bergamo.DamagedFile, "no surfaces of grains"):

@@ -13,6 +13,7 @@ import bergamo
 from bergamo.compare import history_differences
 from bergamo.watch import Watch
 
+HANGS_AFTER = 120  # s, of a program that takes one
 NAMES = "time_s,stage,force_N,zero_J"
 
 
@@ -23,7 +24,8 @@ def rows(count, factor=1., step=0.1):
 class Case(FolderCase):
     def program(self, *words):
         return subprocess.run(["/usr/bin/python3", "-B", "-m", "bergamo", *map(str, words)], capture_output=True, text=True,
-                              env={**os.environ, "PYTHONPATH": str(ROOT / "drivers" / "python")}, cwd=self.tmp)
+                              env={**os.environ, "PYTHONPATH": str(ROOT / "drivers" / "python")}, cwd=self.tmp,
+                              timeout=HANGS_AFTER)
 
     def write_run(self, name, count=11, factor=1., summary='{"model": "spring", "steps": 100, "stiffness": %r}', **more):
         self.write(f"{name}/history.csv", f"{NAMES}\n{rows(count, factor, **more)}")
@@ -41,6 +43,7 @@ class Show(Case):
         for line in (r"spring – one: finished", r"Output/factor +2.0 +\(default 1\)", r"stiffness +2", r"steps +100",
                      r"history +11 rows, 0 to 1 s: time_s, stage, force_N, zero_J", r"strips .*line 2 has 3 values"):
             self.assertRegex(result.stdout, line)
+        self.assertNotIn("Output/samples", result.stdout)  # as by default
 
     def test_a_run_of_a_driver(self):
         result = self.program("show", run_of("silo_discharge"))
@@ -107,6 +110,19 @@ class WatchARun(Case):
             "finished in 1 min 15 s: steps = 100",
         ])
 
+    def test_a_history_that_begins_anew(self):
+        """As with --force: another file of that name, of other columns."""
+        self.write_run("one", count=3, summary=None)
+        self.hold()
+
+        def begin_anew():
+            self.write("one/new.csv", "time_s,length_m\n" + "".join(f"{k},7\n" for k in range(20)))  # longer, too
+            os.replace(self.tmp / "one" / "new.csv", self.tmp / "one" / "history.csv")
+
+        _, lines = self.follow([begin_anew, lambda: self.end(finished=False)])
+        self.assertIn("t = 0.2 s  row 3 of about 10  force_N = 4", lines[0])
+        self.assertEqual(lines[1], "t = 19 s  row 20 of about 10  length_m = 7")
+
     def test_a_run_that_is_killed(self):
         self.write_run("one", count=3, summary=None)
         self.hold()
@@ -154,6 +170,8 @@ class Compare(Case):
         self.assertAlmostEqual(force.relative, 0.5)
         self.assertEqual((force.first, force.second), (16, 24))
         self.assertEqual((found["zero_J"].largest, found["zero_J"].relative), (0, 0))
+        one, two = (bergamo.Table({"time_s": np.array([0., 1.]), "place_m": np.array([-4., end])}) for end in (-2., -1.))
+        self.assertEqual([(found.largest, found.relative) for found in history_differences(one, two)], [(1, 0.25)])
         later = bergamo.Table({"time_s": np.array([7., 8.]), "force_N": np.zeros(2)})
         with self.assertRaisesRegex(bergamo.MissingData, "no time in common"):
             history_differences(first, later)

@@ -60,7 +60,7 @@ class Tables(FolderCase):
 
     def test_unknown_columns_name_the_nearest(self):
         table = bergamo.read_table(self.write("history.csv", HISTORY))
-        for wrong, near in (("stress_x_Pa", "'stress_xx_Pa'"), ("kinetic", "'energy_kinetic_J'")):
+        for wrong, near in (("stress_x_Pa", "'stress_xx_Pa'"), ("kinetic", "'energy_kinetic_J'"), ("kin", "'energy_kinetic_J'")):
             with self.assertRaises(KeyError) as caught:
                 table[wrong]
             self.assertIn(f"no column '{wrong}'; did you mean {near}", str(caught.exception))

@@ -181,7 +181,7 @@ class TwoScales(Case):
 class Damaged(FolderCase):
     def test_files_that_are_none(self):
         whole = (run_of("silo_discharge") / "filled.h5").read_bytes()
-        for content, word in ((whole[:-1], "is damaged"), (whole[512:], "is no archive"), (b"", "is no archive"),
+        for content, word in ((whole[:-1], "follow its seal"), (whole + b"x", "follow its seal"), (whole[512:], "is no archive"), (b"", "is no archive"),
                               (whole.replace(b"format 1", b"format 2", 1), "format 2")):
             path = self.tmp / "snapshot.h5"
             path.write_bytes(content)

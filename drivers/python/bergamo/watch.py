@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TextIO
 
-from .errors import DamagedFile, Error, MissingFile
+from .errors import Error, unknown_name
 from .run import Run
-from .table import Table, read_table
+from .table import numbers_of
 from .text import duration, short
 
 ROWS_OF_A_RUN = "Output/samples"  # the parameter that says how many rows a history gets
@@ -31,6 +32,47 @@ class Pace:
         return (now - self.clock) / (rows - self.rows) * (n_rows - rows)
 
 
+class GrowingTable:
+    """The last row of a table that a run adds to, and how many there are. Reads what is new alone."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._begin(-1)
+
+    def _begin(self, file: int) -> None:
+        self.names: list[str] = []
+        self.n_rows = 0
+        self.last: dict[str, float] = {}
+        self._file, self._read = file, 0  # number of the file, bytes of its whole lines
+
+    def look(self) -> bool:
+        """@return whether there is a row by now; DamagedFile where the last one is none."""
+        try:
+            with open(self.path, "rb") as file:
+                status = os.fstat(file.fileno())
+                if status.st_ino != self._file or status.st_size < self._read:  # begun anew
+                    self._begin(status.st_ino)
+                file.seek(self._read)
+                new = file.read()
+        except OSError:
+            return False
+        whole = new[:new.rfind(b"\n") + 1]
+        self._read += len(whole)
+        lines = [line for line in whole.decode().splitlines() if line.strip()]
+        if lines and not self.names:
+            self.names = lines.pop(0).split(",")
+        self.n_rows += len(lines)
+        if lines:
+            values = numbers_of(self.path, [",".join(self.names), lines[-1]], len(self.names))[0]
+            self.last = dict(zip(self.names, map(float, values)))
+        return self.n_rows > 0
+
+    def __getitem__(self, name: str) -> float:
+        if name not in self.last:
+            raise unknown_name(f"{self.path} has no column", name, self.names)
+        return self.last[name]
+
+
 @dataclass
 class Watch:
     """What a watch prints with, and when."""
@@ -40,6 +82,7 @@ class Watch:
     columns: Sequence[str] = ()
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
+    tables: dict[Path, GrowingTable] = field(default_factory=dict)
 
     def follow(self, run: Run) -> bool:
         """Prints a line a look until the run is no longer running; on a terminal one live line.
@@ -50,10 +93,10 @@ class Watch:
         is_live, shown = self.stream.isatty(), ""
         while True:
             state = run.state  # before the rows: what a run has written when it ends is not missed
-            path, table = latest_history(run)
+            table = self.latest_history(run)
             if table is not None and pace is None:
                 pace = Pace(table.n_rows, self.clock())
-            line = self.line(run, path, table, pace) if table is not None else "no samples yet"
+            line = self.line(run, table, pace) if table is not None else "no samples yet"
             if line != shown or state != "running":
                 self.print_line(line, is_live)
                 shown = line
@@ -63,12 +106,20 @@ class Watch:
         self.stream.write(("\n" if is_live else "") + ending(run, state) + "\n")
         return state == "finished"
 
-    def line(self, run: Run, path: Path, table: Table, pace: Pace | None) -> str:
+    def latest_history(self, run: Run) -> GrowingTable | None:
+        """The history that was written to last, of the run or of one within it; none without a whole row."""
+        folders = [run.folder, *(inner.folder for inner in run.runs.values())]
+        files = [path for path in (folder / "history.csv" for folder in folders) if path.exists()]
+        tables = [self.tables.setdefault(path, GrowingTable(path)) for path in files]
+        grown = [table for table in tables if table.look()]
+        return max(grown, key=lambda table: os.stat(table.path).st_mtime_ns) if grown else None
+
+    def line(self, run: Run, table: GrowingTable, pace: Pace | None) -> str:
         """One look: where the run stands, and the last row."""
-        row = table.row(-1)
-        words = [] if path.parent == run.folder else [str(path.parent.relative_to(run.folder))]
-        words.append(f"t = {short(row['time_s'])} s")
-        wanted = expected_rows(run) if path.parent == run.folder else None
+        folder = table.path.parent
+        words = [] if folder == run.folder else [str(folder.relative_to(run.folder))]
+        words.append(f"t = {short(table['time_s'])} s")
+        wanted = expected_rows(run) if folder == run.folder else None
         words.append(f"row {table.n_rows}" + (f" of about {wanted}" if wanted else ""))
         left = pace.seconds_left(table.n_rows, wanted, self.clock()) if pace and wanted else None
         if left is not None:
@@ -77,7 +128,7 @@ class Watch:
             inner = run.runs.values()
             words.append(f"{sum(one.is_finished for one in inner)} of {len(inner)} runs within are finished")
         names = self.columns or [name for name in table.names if name not in ("time_s", "stage")][:COLUMNS]
-        words += [f"{name} = {short(float(table[name][-1]))}" for name in names]
+        words += [f"{name} = {short(table[name])}" for name in names]
         return "  ".join(words)
 
     def print_line(self, line: str, is_live: bool) -> None:
@@ -87,20 +138,6 @@ class Watch:
         else:
             self.stream.write(line + "\n")
         self.stream.flush()
-
-
-def latest_history(run: Run) -> tuple[Path, Table | None]:
-    """The history that was written to last, of the run or of one within it; none without a whole row."""
-    files = [path for path in (run.folder / "history.csv", *(inner.folder / "history.csv" for inner in run.runs.values()))
-             if path.exists()]
-    for path in sorted(files, key=lambda path: path.stat().st_mtime_ns, reverse=True):
-        try:
-            table = read_table(path)
-        except (MissingFile, DamagedFile):  # just made, or moved aside
-            continue
-        if table.n_rows:
-            return path, table
-    return run.folder, None
 
 
 def expected_rows(run: Run) -> int | None:
