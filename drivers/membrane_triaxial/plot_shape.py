@@ -43,7 +43,8 @@ def main():
     figure, (outlines, first, last) = pyplot.subplots(1, 3, figsize=(11, 5.5), layout="constrained")
     draw_outlines(outlines, shape, history["axial_strain"][:len(shape["time_s"])])
     for axes, membrane in ((first, series[0]), (last, series[-1])):
-        faces = add_view(axes, membrane.corners, membrane.smooth_pressure / history["lateral_pressure_Pa"][-1], 1, HIGHEST, looks=1)
+        share = membrane.smooth_pressure / history["lateral_pressure_Pa"][-1]
+        faces = add_view(axes, membrane.corners, share, 1, HIGHEST, looks=1)
         strain = np.interp(membrane.time, history["time_s"], history["axial_strain"])
         axes.set_title(f"axial strain {100 * strain:.1f} %", fontsize=10)
         axes.set_xlabel("x in mm")

@@ -50,11 +50,13 @@ class Stress(unittest.TestCase):
 
     def test_shares_of_lines_in_a_box(self):
         low, high = np.zeros(3), np.array([1., 2., 3.])
-        for start, branch, share in (([0.5, 1, 1], [0.2, 0, 0], 1), ([0.5, 1, 1], [1, 0, 0], 0.5), ([-1, 1, 1], [4, 0, 0], 0.25),
-                                     ([-1, 1, 1], [0.5, 0, 0], 0), ([0.5, 5, 1], [1, 0, 0], 0), ([-0.5, -0.5, 1], [1, 1, 0], 0.5),
-                                     ([1, 1, 1], [0, 0, 1], 0), ([0, 1, 1], [0, 0, 1], 1), ([0.5, 1, 4], [0, 0, -2], 0.5)):
-            np.testing.assert_allclose(share_in_box(np.array([start], float), np.array([branch], float), low, high), share,
-                                       atol=1e-15, err_msg=f"{start} {branch}")
+        for start, branch, share in (([0.5, 1, 1], [0.2, 0, 0], 1), ([0.5, 1, 1], [1, 0, 0], 0.5),
+                                     ([-1, 1, 1], [4, 0, 0], 0.25), ([-1, 1, 1], [0.5, 0, 0], 0),
+                                     ([0.5, 5, 1], [1, 0, 0], 0), ([-0.5, -0.5, 1], [1, 1, 0], 0.5),
+                                     ([1, 1, 1], [0, 0, 1], 0), ([0, 1, 1], [0, 0, 1], 1),
+                                     ([0.5, 1, 4], [0, 0, -2], 0.5)):
+            found = share_in_box(np.array([start], float), np.array([branch], float), low, high)
+            np.testing.assert_allclose(found, share, atol=1e-15, err_msg=f"{start} {branch}")
 
     def test_uniform_stress_of_a_lattice(self):
         """Spheres on a cubic lattice with forces f along all bonds in a periodic cell: -f / a^2 everywhere."""
@@ -84,7 +86,8 @@ class Stress(unittest.TestCase):
 
     def test_arguments_that_make_no_sense(self):
         contacts = contacts_of([0], [1], [[0, 0, 0]], [[1, 0, 0]], [[-1, 0, 0]])
-        for call, words in ((lambda: bergamo.stress(contacts), "no periodic cell"), (lambda: bergamo.stress(contacts, 0), "is 0"),
+        for call, words in ((lambda: bergamo.stress(contacts), "no periodic cell"),
+                            (lambda: bergamo.stress(contacts, 0), "is 0"),
                             (lambda: bergamo.stress_in_box(contacts, [0, 0, 0], [1, 0, 1]), "lower one first"),
                             (lambda: bergamo.stress_in_box(contacts, [0, 0, 0], [1, 1, 1], "all"), "'all'"),
                             (lambda: bergamo.stress_profile(contacts, [0, 0, 0], [1, 1, 1], "w"), "'w'")):
@@ -98,7 +101,8 @@ class Structure(unittest.TestCase):
         np.testing.assert_allclose(bergamo.fabric_tensor(axis), np.diag([0, 0, 1]))
         random = np.random.default_rng(1)
         lines = random.normal(size=(100000, 3))
-        even = contacts_of(np.zeros(len(lines), int), np.ones(len(lines), int), np.zeros_like(lines), lines, np.zeros_like(lines))
+        zero, ids = np.zeros_like(lines), np.zeros(len(lines), int)
+        even = contacts_of(ids, ids + 1, zero, lines, zero)
         fabric = bergamo.fabric_tensor(even)
         self.assertAlmostEqual(np.trace(fabric), 1)
         np.testing.assert_allclose(fabric, np.eye(3) / 3, atol=5 / np.sqrt(len(lines)))
@@ -114,7 +118,8 @@ class Structure(unittest.TestCase):
         first, second = np.array(pairs).T
         ids = np.array([70, 60, 50, 40, 30, 20, 10])
         grains = grains_at(np.random.default_rng(2).random((7, 3)), 0.1, ids)
-        contacts = contacts_of(ids[first], ids[second], grains.position[first], grains.position[second] - grains.position[first],
+        place = grains.position
+        contacts = contacts_of(ids[first], ids[second], place[first], place[second] - place[first],
                                np.zeros((len(pairs), 3)))
         numbers = bergamo.coordination_numbers(grains, contacts)
         self.assertEqual(numbers.of_grains.tolist(), [4, 5, 5, 5, 4, 4, 1])

@@ -31,8 +31,8 @@ class Page(FolderCase):
         self.assertRegex(result.stderr, r'page.md", line 8')
         page.write_text(page.read_text().replace("bad", "print(2)"))
         subprocess.run(command, check=True)
-        self.assertEqual(page.read_text(), "# Page\n\n```python\nprint(1)\n```\n\n```text\n1\n```\n\n```python\nprint(2)\n```\n\n"
-                         "```text\n2\n```\n")
+        blocks = [f"```python\nprint({k})\n```\n\n```text\n{k}\n```\n" for k in (1, 2)]
+        self.assertEqual(page.read_text(), "# Page\n\n" + "\n".join(blocks))
         subprocess.run(command, check=True)
         self.assertEqual(page.read_text().count("```text"), 2)  # output is put in place of the old
 

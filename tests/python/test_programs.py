@@ -29,7 +29,8 @@ class Case(FolderCase):
 
     def write_run(self, name, count=11, factor=1., summary='{"model": "spring", "steps": 100, "stiffness": %r}', **more):
         self.write(f"{name}/history.csv", f"{NAMES}\n{rows(count, factor, **more)}")
-        self.write(f"{name}/parameters.prm", f"subsection Output\n  set samples = 10\n  set factor = {factor} # default: 1\nend\n")
+        self.write(f"{name}/parameters.prm",
+                   f"subsection Output\n  set samples = 10\n  set factor = {factor} # default: 1\nend\n")
         if summary:
             self.write(f"{name}/summary.json", summary % factor)
 
@@ -151,7 +152,8 @@ class WatchARun(Case):
         self.assertIn("force_N = 100", result.stdout)
         (self.tmp / "one" / "summary.json").unlink()
         self.assertEqual(self.program("watch", "one").returncode, 1)
-        for words, text in ((["--columns", "forc_N"], "no column 'forc_N'; did you mean 'force_N'"), (["--interval", "0"], "above 0")):
+        for words, text in ((["--columns", "forc_N"], "no column 'forc_N'; did you mean 'force_N'"),
+                            (["--interval", "0"], "above 0")):
             result = self.program("watch", "one", *words)
             self.assertEqual(result.returncode, 2)
             self.assertRegex(result.stderr, f"\\Aerror: .*{text}.*\n\\Z")

@@ -60,7 +60,8 @@ class Tables(FolderCase):
 
     def test_unknown_columns_name_the_nearest(self):
         table = bergamo.read_table(self.write("history.csv", HISTORY))
-        for wrong, near in (("stress_x_Pa", "'stress_xx_Pa'"), ("kinetic", "'energy_kinetic_J'"), ("kin", "'energy_kinetic_J'")):
+        for wrong, near in (("stress_x_Pa", "'stress_xx_Pa'"), ("kinetic", "'energy_kinetic_J'"),
+                            ("kin", "'energy_kinetic_J'")):
             with self.assertRaises(KeyError) as caught:
                 table[wrong]
             self.assertIn(f"no column '{wrong}'; did you mean {near}", str(caught.exception))
@@ -207,6 +208,8 @@ class Runs(FolderCase):
         self.assertEqual(alone.parameters["Grains/Clumps/parts"], 3)
         self.assertEqual(list(alone.tables), ["history"])
         self.assertEqual(run.previous.history.n_rows, 3)
+        with self.assertRaisesRegex(bergamo.MissingFile, "runs within: samples/0001, samples/0002"):
+            run.history
 
     def test_title(self):
         self.write("run/history.csv", HISTORY)

@@ -58,8 +58,9 @@ class PeriodicCell(Case):
     def test_stresses_of_boxes_add_up_to_that_of_the_cell(self):
         cell = self.contacts.cell
         for share in ("branch", "point"):
-            boxes = [bergamo.stress_in_box(self.contacts, cell * [i / 3, j / 2, k / 4], cell * [(i + 1) / 3, (j + 1) / 2, (k + 1) / 4],
-                                           share) for i in range(3) for j in range(2) for k in range(4)]
+            corners = np.stack(np.meshgrid(range(3), range(2), range(4)), axis=-1).reshape(-1, 3)
+            boxes = [bergamo.stress_in_box(self.contacts, cell * corner / [3, 2, 4], cell * (corner + 1) / [3, 2, 4], share)
+                     for corner in corners]
             self.assert_near(np.mean(boxes, axis=0), bergamo.stress(self.contacts))
         slices = bergamo.stress_profile(self.contacts, np.zeros(3), cell, "y", 7)
         self.assert_near(slices.mean(axis=0), bergamo.stress(self.contacts))
@@ -181,7 +182,8 @@ class TwoScales(Case):
 class Damaged(FolderCase):
     def test_files_that_are_none(self):
         whole = (run_of("silo_discharge") / "filled.h5").read_bytes()
-        for content, word in ((whole[:-1], "follow its seal"), (whole + b"x", "follow its seal"), (whole[512:], "is no archive"), (b"", "is no archive"),
+        for content, word in ((whole[:-1], "follow its seal"), (whole + b"x", "follow its seal"),
+                              (whole[512:], "is no archive"), (b"", "is no archive"),
                               (whole.replace(b"format 1", b"format 2", 1), "format 2")):
             path = self.tmp / "snapshot.h5"
             path.write_bytes(content)

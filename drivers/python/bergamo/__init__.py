@@ -18,9 +18,10 @@ from .contacts import Contacts
 from .continuum import Continuum
 from .errors import BadArgument, DamagedFile, Error, MissingData, MissingFile, UnknownName
 from .grains import Grains
-from .measure import (Box, Coordination, ForceChains, Profile, Sphere, anisotropy, coordination_numbers, deviatoric_stress,
-                      fabric_tensor, force_chains, force_moment, is_rattler, pressure, principal_stresses, profile,
-                      sampled_solid_fraction, solid_fraction, solid_fraction_in, stress, stress_in_box, stress_profile)
+from .measure import (Box, Coordination, ForceChains, Profile, Sphere, anisotropy, coordination_numbers,
+                      deviatoric_stress, fabric_tensor, force_chains, force_moment, is_rattler, pressure,
+                      principal_stresses, profile, sampled_solid_fraction, solid_fraction, solid_fraction_in, stress,
+                      stress_in_box, stress_profile)
 from .mesh import Mesh, read_grid, read_vtu
 from .parameters import Parameter, Section, read_parameters
 from .pictures import Pictures, Series
@@ -35,10 +36,12 @@ from .units import unit_of
 open = open_run
 
 __all__ = [
-    "Archive", "BadArgument", "Box", "Contacts", "Continuum", "Coordination", "DamagedFile", "Error", "ForceChains", "Grains",
-    "Mesh", "MissingData", "MissingFile", "Parameter", "Parts", "Pictures", "Profile", "Run", "Section", "Series", "Snapshot",
-    "Sphere", "Summary", "Surfaces", "Table", "Tables", "UnknownName", "Wall", "anisotropy", "coordination_numbers",
-    "deviatoric_stress", "fabric_tensor", "force_chains", "force_moment", "is_rattler", "open", "open_run", "pressure",
+    "Archive", "BadArgument", "Box", "Contacts", "Continuum", "Coordination", "DamagedFile", "Error", "ForceChains",
+    "Grains", "Mesh", "MissingData", "MissingFile", "Parameter", "Parts", "Pictures", "Profile", "Run", "Section",
+    "Series", "Snapshot", "Sphere", "Summary", "Surfaces", "Table", "Tables", "UnknownName", "Wall", "anisotropy",
+    "coordination_numbers", "deviatoric_stress", "fabric_tensor", "force_chains", "force_moment", "is_rattler",
+    "open", "open_run", "pressure",
     "principal_stresses", "profile", "read_grid", "read_parameters", "read_summary", "read_table", "read_vtu",
-    "sampled_solid_fraction", "solid_fraction", "solid_fraction_in", "stress", "stress_in_box", "stress_profile", "unit_of",
+    "sampled_solid_fraction", "solid_fraction", "solid_fraction_in", "stress", "stress_in_box", "stress_profile",
+    "unit_of",
 ]

@@ -73,7 +73,9 @@ class Grains:
     @property
     def quaternion(self) -> np.ndarray:
         """(n, 4) in the order (x, y, z, w), body to global; of clumps in a snapshot that of the principal frame."""
-        return self.fields["orientation"] if "orientation" in self.fields else self._of_plain_grains(self.parts.quaternion)
+        if "orientation" in self.fields:
+            return self.fields["orientation"]
+        return self._of_plain_grains(self.parts.quaternion)
 
     @property
     def is_fixed(self) -> np.ndarray:
@@ -84,10 +86,12 @@ class Grains:
         """Rows of grains by their ids; -1, no grain, stays -1. BadArgument for an id that is not there."""
         ids = np.asarray(ids)
         order = self._order
-        rows = order[np.searchsorted(self.id, ids, sorter=order).clip(max=len(self) - 1)] if len(self) else ids * 0 - 1
-        if ((self.id[rows] != ids) & (ids != -1)).any() if len(self) else (ids != -1).any():
-            raise BadArgument(f"{self.source or 'these grains'}: ids that are not among the {len(self)} grains; take contacts "
-                              "and grains of the same time")
+        if len(self) == 0 and (ids == -1).all():
+            return ids
+        rows = order[np.searchsorted(self.id, ids, sorter=order).clip(max=len(self) - 1)]
+        if len(self) == 0 or ((self.id[rows] != ids) & (ids != -1)).any():
+            raise BadArgument(f"{self.source or 'these grains'}: ids that are not among the {len(self)} grains; take "
+                              "contacts and grains of the same time")
         return np.where(ids == -1, -1, rows)
 
     @cached_property

@@ -46,7 +46,8 @@ class Mesh:
         """Points of each cell, (nc, corners), in VTK's order; DamagedFile where cells differ in their number."""
         sizes = np.diff(self.offsets)
         if len(sizes) and (sizes != sizes[0]).any():
-            raise DamagedFile(f"{self.path} has cells of {sizes.min()} to {sizes.max()} points; see connectivity, offsets")
+            raise DamagedFile(f"{self.path} has cells of {sizes.min()} to {sizes.max()} points; see connectivity and "
+                              "offsets")
         return self.connectivity.reshape(len(sizes), -1)
 
 
@@ -91,7 +92,8 @@ def read_vtu(path: Path | str) -> Mesh:
 
     cells, n = grid.GetCells(), grid.GetNumberOfCells()
     empty = np.zeros(0, dtype=np.int64)
-    return Mesh(Path(path), np.zeros((0, 3)) if grid.GetNumberOfPoints() == 0 else vtk_to_numpy(grid.GetPoints().GetData()),
+    has_points = grid.GetNumberOfPoints() > 0
+    return Mesh(Path(path), vtk_to_numpy(grid.GetPoints().GetData()) if has_points else np.zeros((0, 3)),
                 vtk_to_numpy(grid.GetCellTypesArray()) if n else empty.astype(np.uint8),
                 vtk_to_numpy(cells.GetConnectivityArray()) if n else empty,
                 vtk_to_numpy(cells.GetOffsetsArray()) if n else np.zeros(1, dtype=np.int64),

@@ -49,8 +49,8 @@ class Run:
         """See open_run()."""
         self.folder = Path(folder)
         if not self.folder.is_dir():
-            raise MissingFile(f"{self.folder}: {'a file, no folder' if self.folder.exists() else 'no such folder'} of a run"
-                              + hint_of(self.folder))
+            what = "a file, no folder" if self.folder.exists() else "no such folder"
+            raise MissingFile(f"{self.folder}: {what} of a run{hint_of(self.folder)}")
         self.parent = parent or parent_of(self.folder)
         if not is_run(self.folder):
             inner = [str(path) for path in sub_folders(self.folder)]
@@ -75,8 +75,12 @@ class Run:
 
     @property
     def history(self) -> Table:
-        """Columns over time, history.csv."""
-        return read_table(self.folder / "history.csv")
+        """Columns over time, history.csv. MissingFile, naming the runs within, where only these have one."""
+        path = self.folder / "history.csv"
+        if not path.exists() and self.runs:
+            raise MissingFile(f"{self.folder} has no history of its own; runs within: {', '.join(list(self.runs)[:5])}"
+                              + (", ..." if len(self.runs) > 5 else ""))
+        return read_table(path)
 
     @property
     def tables(self) -> Tables:
@@ -116,8 +120,8 @@ class Run:
 
     @property
     def state(self) -> str:
-        """"finished": at its end. "running": a program is writing to the folder. "interrupted": neither; it was stopped or
-        killed, and --restart goes on with it where there is a snapshot.
+        """"finished": at its end. "running": a program is writing to the folder. "interrupted": neither; it was stopped
+        or killed, and --restart goes on with it where there is a snapshot.
         """
         if self.parent:
             return "finished" if (self.folder / "figures.csv").exists() else self.parent.state

@@ -72,7 +72,8 @@ def snapshots(run: Run) -> list[str]:
     for name in run.archives:
         try:
             snapshot = run.snapshot(name)
-            content = f"{len(snapshot.grains)} grains at {short(snapshot.time)} s" if "dem/time" in snapshot else "no grains"
+            has_grains = "dem/time" in snapshot
+            content = f"{len(snapshot.grains)} grains at {short(snapshot.time)} s" if has_grains else "no grains"
             rows.append([name, f"{snapshot.kind}, {content}"])
         except (Error, ImportError) as error:
             rows.append([name, str(error)])

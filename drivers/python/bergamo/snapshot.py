@@ -19,8 +19,8 @@ from .shapes import Parts
 from .surfaces import Surfaces
 
 # What a touching contact remembers (dem/force/contact_state.h): names and lengths, in the order of the file.
-STATE = (("normal", 3), ("axis", 3), ("point", 3), ("tangential", 2), ("normal_force", 1), ("overlap", 1), ("stiffness", 3),
-         ("reduced_mass", 1), ("weight", 1), ("radii", 6), ("wear", 5), ("budget", 1))
+STATE = (("normal", 3), ("axis", 3), ("point", 3), ("tangential", 2), ("normal_force", 1), ("overlap", 1),
+         ("stiffness", 3), ("reduced_mass", 1), ("weight", 1), ("radii", 6), ("wear", 5), ("budget", 1))
 SURFACE_STATE = (*STATE, ("friction_work", 1))
 SPHERE_STATE = (("tangential_force", 3), ("normal_force", 1), ("root_overlap", 1), ("stiffness", 2), ("reduced_mass", 1),
                 ("weight", 1), ("radius_sum", 1), ("radius_difference", 1))
@@ -56,8 +56,8 @@ class Snapshot(Archive):
 
     @property
     def cell(self) -> np.ndarray | None:
-        """Edges of the periodic cell now, (3,) [m], from the origin; none where nothing repeats itself. That of the contacts
-        is one step back as they are.
+        """Edges of the periodic cell now, (3,) [m], from the origin; none where nothing repeats itself. That of the
+        contacts is one step back as they are.
         """
         edges = self._of_grains("particles/cell/edges")
         return edges if np.isfinite(edges).all() else None
@@ -124,9 +124,9 @@ class Snapshot(Archive):
 
     @property
     def continuum(self) -> dict[str, np.ndarray]:
-        """What changes of the continuum's nodes, in the mesh's order, nn nodes: displacement (nn, 3) [m], velocity (nn, 3)
-        [m/s], internal_force, external_force, reaction_force (nn, 3) [N]. Where the nodes are and stresses stand in the
-        pictures. MissingData where there is no continuum.
+        """What changes of the continuum's nodes, in the mesh's order, nn nodes: displacement (nn, 3) [m], velocity
+        (nn, 3) [m/s], internal_force, external_force, reaction_force (nn, 3) [N]. Where the nodes are and stresses stand
+        in the pictures. MissingData where there is no continuum.
         """
         arrays = self.arrays("continuum")
         if not arrays:
@@ -171,7 +171,8 @@ class Snapshot(Archive):
 def named(layout: tuple[tuple[str, int], ...], rows: np.ndarray) -> dict[str, np.ndarray]:
     """Columns of a block of numbers by name. @param rows (k, sum of the lengths)"""
     ends = np.cumsum([length for _, length in layout])
-    return {name: rows[:, end - length:end] if length > 1 else rows[:, end - 1] for (name, length), end in zip(layout, ends)}
+    return {name: rows[:, end - length:end] if length > 1 else rows[:, end - 1]
+            for (name, length), end in zip(layout, ends)}
 
 
 def rows_of(name: str, values: np.ndarray) -> np.ndarray:

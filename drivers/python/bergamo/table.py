@@ -78,7 +78,8 @@ class Table(Mapping[str, np.ndarray]):
         try:
             import pandas
         except ImportError:
-            raise MissingData("pandas is not installed: apt install python3-pandas; columns and .array need none") from None
+            raise MissingData("pandas is not installed: apt install python3-pandas; columns and .array need none"
+                              ) from None
         return pandas.DataFrame(self._columns)
 
 

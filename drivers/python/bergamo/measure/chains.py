@@ -45,7 +45,7 @@ def force_chains(contacts: Contacts, over_mean: float = 1.) -> ForceChains:
     rank[order] = np.arange(len(order))
     of_contacts = np.full(len(force), -1)
     of_contacts[is_strong] = rank[chain]
-    grains = np.bincount(rank[np.searchsorted(names, root)], minlength=len(names)) if len(names) else np.zeros(0, dtype=int)
+    grains = np.bincount(rank[np.searchsorted(names, root)], minlength=len(names))
     total = float(force.sum())
     return ForceChains(is_strong, of_contacts, sizes[order], grains, threshold,
                        float(force[is_strong].sum()) / total if total > 0 else 0.)

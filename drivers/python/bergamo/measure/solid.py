@@ -53,11 +53,12 @@ def solid_fraction(grains: Grains, volume: float) -> float:
 
 
 def solid_fraction_in(grains: Grains, region: Region, n: int = 100, cell: np.ndarray | None = None) -> float:
-    """Share of a box or a sphere within the grains' true shapes, by the points of an even grid in it. Overlaps count once.
-    The error falls about as the square of the spacing: one sphere of 20 points a diameter is counted to 0.3 % (standard
-    deviation over its places), one of 80 to 0.02 %; errors of many grains cancel.
+    """Share of a box or a sphere within the grains' true shapes, by the points of an even grid in it. Overlaps count
+    once. The error falls about as the square of the spacing: one sphere of 20 points a diameter is counted to 0.3 %
+    (standard deviation over its places), one of 80 to 0.02 %; errors of many grains cancel.
 
-    @param n points along the longest side of the region; @param cell edges of a periodic cell, whose images count, (3,) [m]
+    @param n points along the longest side of the region
+    @param cell edges of a periodic cell, whose images count, (3,) [m]
     """
     if n < 1:
         raise BadArgument(f"{n} points along a side are none")
@@ -100,7 +101,8 @@ def sampled_solid_fraction(grains: Grains, centres: np.ndarray, radius: float) -
         raise BadArgument(f"the radius of the sampling spheres is {radius}; it must be positive and finite [m]")
     free = ~grains.is_fixed
     places, radii = grains.position[free], 0.5 * grains.diameter[free]
-    shared = [shared_volume(np.linalg.norm(places - centre, axis=1), radii, radius).sum() for centre in np.atleast_2d(centres)]
+    shared = [shared_volume(np.linalg.norm(places - centre, axis=1), radii, radius).sum()
+              for centre in np.atleast_2d(centres)]
     return np.array(shared) / (4 / 3 * np.pi * radius ** 3)
 
 

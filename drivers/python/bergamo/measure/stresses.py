@@ -55,7 +55,7 @@ def stress_in_box(contacts: Contacts, low: np.ndarray, high: np.ndarray, share: 
 
 
 def share_in_box(start: np.ndarray, branch: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Share of each line that lies in a box, (k,) in [0, 1]. @param start, branch (k, 3) [m]; @param low, high (3,) [m]"""
+    """Share of each line that lies in a box, (k,) in [0, 1]. @param start, branch (k, 3), low, high (3,) [m]"""
     with np.errstate(divide="ignore", invalid="ignore"):
         begin, end = (low - start) / branch, (high - start) / branch
     is_along = branch == 0  # never reaches these two faces: inside of them wholly or not at all
@@ -75,7 +75,8 @@ def images(contacts: Contacts) -> list[np.ndarray]:
 def checked_box(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
     if low.shape != (3,) or high.shape != (3,) or not (low < high).all() or not np.isfinite([low, high]).all():
-        raise BadArgument(f"a box from {low} to {high} is none; give two corners of three numbers, the lower one first [m]")
+        raise BadArgument(f"a box from {low} to {high} is none; give two corners of three numbers, the lower one first "
+                          "[m]")
     return low, high
 
 
