@@ -16,7 +16,8 @@ OF_NODES = ("displacement", "velocity")
 
 @dataclass(frozen=True)
 class Continuum:
-    """nn nodes and ne elements at one time; global frame, SI units, single precision as pictures are.
+    """nn nodes and ne elements at one time, but for absent elements; global frame, SI units, single precision as pictures
+    are.
 
     `continuum["velocity"]` and `["displacement"]` are by node, (nn, 3); all else is the volume average of each element:
     stress_xx .. stress_zx, principal_stress_1 .. 3, pressure, deviatoric_stress, yield_function [Pa],
