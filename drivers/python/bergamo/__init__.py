@@ -35,13 +35,12 @@ from .units import unit_of
 
 open = open_run
 
-__all__ = [
+__all__ = [  # but for open, which would hide Python's own
     "Archive", "BadArgument", "Box", "Contacts", "Continuum", "Coordination", "DamagedFile", "Error", "ForceChains",
     "Grains", "Mesh", "MissingData", "MissingFile", "Parameter", "Parts", "Pictures", "Profile", "Run", "Section",
     "Series", "Snapshot", "Sphere", "Summary", "Surfaces", "Table", "Tables", "UnknownName", "Wall", "anisotropy",
     "coordination_numbers", "deviatoric_stress", "fabric_tensor", "force_chains", "force_moment", "is_rattler",
-    "open", "open_run", "pressure",
-    "principal_stresses", "profile", "read_grid", "read_parameters", "read_summary", "read_table", "read_vtu",
-    "sampled_solid_fraction", "solid_fraction", "solid_fraction_in", "stress", "stress_in_box", "stress_profile",
-    "unit_of",
+    "open_run", "pressure", "principal_stresses", "profile", "read_grid", "read_parameters", "read_summary", "read_table",
+    "read_vtu", "sampled_solid_fraction", "solid_fraction", "solid_fraction_in", "stress", "stress_in_box",
+    "stress_profile", "unit_of",
 ]

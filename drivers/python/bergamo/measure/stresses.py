@@ -36,9 +36,9 @@ def stress(contacts: Contacts, volume: float | None = None) -> np.ndarray:
 def stress_in_box(contacts: Contacts, low: np.ndarray, high: np.ndarray, share: str = "branch") -> np.ndarray:
     """Mean stress of a box, (3, 3) [Pa].
 
-    "branch": a contact counts with the share of its branch that lies in the box. For grains at rest that is the mean over
-    the box of the tractions on its planes, and boxes side by side add up to the whole. Branches go straight on through a
-    periodic cell's faces. "point": a contact counts wholly where its place is in the box, lower faces included, as the
+    "branch": a contact counts with the share of its branch that lies in the box: the mean over planes across the box of
+    the forces that branches carry through them. Boxes side by side add up to the whole, and slices across a whole packing
+    at rest bear exactly what is above them. Branches go straight on through a periodic cell's faces. "point": a contact counts wholly where its place is in the box, lower faces included, as the
     program does (Wellmann 6.4): less exact in a box of few grains.
 
     @param low, high corners of the box, (3,) [m]
