@@ -26,13 +26,11 @@ class Ground:
     """The ground at one of the run's pictures. What is large is read when it is asked for."""
 
     def __init__(self, folder, number):
-        self.files = {}
+        self.folder, self.number, self.files = folder, number, {}
         for kind in ("grains", "surfaces", "continuum", "solid_fraction", "stress"):
             files = numbered_files(folder, kind)
             if number < len(files):
                 self.files[kind] = files[number]
-        contacts = pictures_of(folder, "contacts")
-        self.contacts = contacts[number] if number < len(contacts) else None
         parameters = read_parameters(folder)
         self.sphere_radius = 1e3 * float(parameters["Fields/sphere radius"])
         self.mean_grain = 2e3 * np.mean([float(axis) for axis in parameters["Sand/mean half-axes"].split(",")])
@@ -61,7 +59,7 @@ class Ground:
 
     def chains(self):
         """Branches of the contacts in a slab three grains thick, and their normal forces in N."""
-        return chains_near(self.contacts, 3 * self.mean_grain)
+        return chains_near(pictures_of(self.folder, "contacts")[self.number], 3 * self.mean_grain)
 
     def solid_fraction(self):
         """Not a number where a sampling sphere is not in grains alone: it reaches into the pile or out of their ground."""
