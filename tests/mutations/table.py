@@ -59,7 +59,7 @@ MUTATIONS = [
         ("moving_body.cc", "ledger_.exchanged += present_energy() - before;", "", "A share that*"),
         ("moving_body.cc", "- ledger_.last_step * internal_force_[dof]", "", "A share that*"),
         ("moving_body.cc", "    if (mass == 0)\n      return 0;\n", "", "Elements without any*"),
-        ("explicit_body.cc", "elements().make_rigid(e);", "", "Elements without any*,A share that*"),
+        ("explicit_body.cc", "elements().make_rigid(e);", "(void)e;", "Elements without any*,A share that*"),
         ("output.cc", "!body.is_absent(cell->active_cell_index())", "true", "Elements without any*"),
         ("body_energy.cc", "energy.kinetic < -tolerance * (put_in", "energy.kinetic < -1000 * tolerance * (put_in",
          "energies that no slow motion*"),
