@@ -20,10 +20,10 @@ PenaltyCoupling set_up(GrainsMover &grains, SolidMover &body, const CouplingPara
                        const OverlapPlace &place)
 {
   parameters.validate();
-  body.add_weights(place.nodal_weight); // first: no grain lies in elements that are absent by them
-  const Overlap overlap = overlap_of(grains.simulation().particles, body, place.reference_by_id);
+  const Overlap overlap = overlap_of(grains.simulation().particles, body, place.reference_by_id, place.nodal_weight);
   const OverlapWeights weights(overlap, place.nodal_weight, parameters.least_weight);
   grains.set_weights(overlap.particle_id, weights.particle);
+  body.add_weights(place.nodal_weight);
   PenaltyCoupling penalty(overlap, parameters.projection, parameters.penalty);
   penalty.hold(HeldEdge(overlap, weights.node, weights.particle, parameters.edge));
   return penalty;
@@ -148,7 +148,7 @@ void ArlequinCoupling::renew()
   for (std::size_t i = 0; i < p.size(); ++i)
     reference_by_id_[p.id[i]] = present[i];
 
-  Overlap overlap = overlap_of(p, body_, reference_by_id_);
+  Overlap overlap = overlap_of(p, body_, reference_by_id_, nodal_weight_);
   const std::vector<std::int64_t> old_id = penalty_.overlap().particle_id;
   std::unordered_map<std::int64_t, std::size_t> old_place;
   for (std::size_t k = 0; k < old_id.size(); ++k)

@@ -25,7 +25,8 @@ namespace
 
 using Cell = dealii::Triangulation<3>::cell_iterator;
 
-/// Looks for the elements of a body's reference configuration that points lie in; absent ones hold none.
+/// Looks for the elements of a body's reference configuration that points lie in. Absent ones hold none, nor do those
+/// that weights will make so.
 class ElementSearch
 {
 public:
@@ -36,12 +37,18 @@ public:
     dealii::Point<3> unit; // local coordinates in [0, 1]^3
   };
 
-  explicit ElementSearch(const fe::ExplicitBody &body)
+  explicit ElementSearch(const fe::ExplicitBody &body, const std::span<const double> nodal_weight = {})
   {
+    const auto has_share = [&](const std::size_t element)
+    {
+      const auto nodes = body.element_nodes(element);
+      return nodal_weight.empty() ||
+             std::any_of(nodes.begin(), nodes.end(), [&](const auto node) { return nodal_weight[node] < 1.; });
+    };
     std::vector<std::pair<dealii::BoundingBox<3>, unsigned int>> boxes;
     for (const auto &cell : body.dof_handler().active_cell_iterators())
     {
-      if (!body.is_absent(cells_.size()))
+      if (!body.is_absent(cells_.size()) && has_share(cells_.size()))
         boxes.emplace_back(cell->bounding_box(), static_cast<unsigned int>(cells_.size()));
       cells_.push_back(cell);
     }
@@ -99,9 +106,8 @@ struct Placed
 };
 
 /// The particles that lie in elements, element by element, and in one in the order in which they came.
-std::vector<Placed> placed_by_element(const fe::ExplicitBody &body, const std::span<const Vec3> position)
+std::vector<Placed> placed_by_element(const ElementSearch &search, const std::span<const Vec3> position)
 {
-  const ElementSearch search(body);
   std::vector<Placed> placed;
   for (std::size_t i = 0; i < position.size(); ++i)
     if (const auto at = search.find(position[i]))
@@ -143,8 +149,12 @@ Vec3 value_in(const fe::ExplicitBody &body, const ElementSearch::Found &at, cons
 } // namespace
 
 Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::int64_t> id,
-                     const std::span<const Vec3> position, const std::span<const double> volume)
+                     const std::span<const Vec3> position, const std::span<const double> volume,
+                     const std::span<const double> nodal_weight)
 {
+  if (nodal_weight.size() != body.n_nodes())
+    reject("grains overlap a continuum of ", body.n_nodes(), " nodes, but ", nodal_weight.size(),
+           " weights are given; give one per node");
   if (body.elements().nodes_per_element() != 8)
     throw ConfigError("grains overlap a continuum with elements of " +
                       std::to_string(body.elements().nodes_per_element()) +
@@ -164,7 +174,7 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
   };
 
   const dealii::FE_Q<3> trilinear(1);
-  for (const auto &[i, at] : placed_by_element(body, position))
+  for (const auto &[i, at] : placed_by_element(ElementSearch(body, nodal_weight), position))
   {
     const auto nodes = body.element_nodes(at.element);
     const std::array<Vec3, 8> gradients = gradients_at(trilinear, at.cell, at.unit);

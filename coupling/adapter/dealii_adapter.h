@@ -14,9 +14,10 @@ namespace bergamo::coupling
 /// body's reference configuration, the coupled elements those that hold a centre (Wellmann 6.3). Shape values from
 /// deal.II's inverse mapping. Particles stand element by element, in one in the order given.
 /// @param id, position [m], volume [m^3] of the grains in their reference configuration
+/// @param nodal_weight of the grains, one a node: elements where all are 1 are left to grains alone
 /// @throws ConfigError (Overlap::validate) where nothing overlaps
 Overlap make_overlap(const fe::ExplicitBody &body, std::span<const std::int64_t> id, std::span<const Vec3> position,
-                     std::span<const double> volume);
+                     std::span<const double> volume, std::span<const double> nodal_weight);
 
 /// Where places of the present configuration lie in the body's reference configuration, X + u(X) = x, up to the square
 /// of its displacement's gradient times the displacement; places in no element stay where they are [m].

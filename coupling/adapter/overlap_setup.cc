@@ -9,7 +9,8 @@
 namespace bergamo::coupling
 {
 
-Overlap overlap_of(const dem::Particles &p, const SolidMover &body, const std::span<const Vec3> reference_by_id)
+Overlap overlap_of(const dem::Particles &p, const SolidMover &body, const std::span<const Vec3> reference_by_id,
+                   const std::span<const double> nodal_weight)
 {
   std::vector<std::int32_t> order(p.size());
   std::iota(order.begin(), order.end(), 0);
@@ -23,7 +24,7 @@ Overlap overlap_of(const dem::Particles &p, const SolidMover &body, const std::s
     reference.push_back(reference_by_id[p.id[i]]);
     volume.push_back(p.volume[i]);
   }
-  return make_overlap(body.solid(), id, reference, volume);
+  return make_overlap(body.solid(), id, reference, volume, nodal_weight);
 }
 
 OverlapWeights::OverlapWeights(const Overlap &overlap, const std::span<const double> nodal_weight,

@@ -13,9 +13,10 @@ namespace bergamo::coupling
 
 /// The overlap of a body and of all grains, element by element and in the order of their ids: it is the same after a
 /// restart.
-/// @param reference_by_id places in the body's reference configuration [m]
+/// @param reference_by_id places in the body's reference configuration [m]; @param nodal_weight see make_overlap()
 /// @throws ConfigError as make_overlap()
-Overlap overlap_of(const dem::Particles &particles, const SolidMover &body, std::span<const Vec3> reference_by_id);
+Overlap overlap_of(const dem::Particles &particles, const SolidMover &body, std::span<const Vec3> reference_by_id,
+                   std::span<const double> nodal_weight);
 
 /// Weights of the coupling nodes and of the coupled particles.
 struct OverlapWeights

@@ -4,12 +4,14 @@
 #include "coupling/adapter/model_energy.h"
 #include "dem/loading/compression.h"
 #include "dem/state/positions_by_id.h"
+#include "fe_dealii/mesh/box_mesh.h"
 #include "tests/verification/pressed_model.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <map>
+#include <memory>
 
 using namespace bergamo;
 using coupling::TwoScaleModel;
@@ -158,4 +160,19 @@ TEST_CASE("an overlap does not go where its elements are absent, nor with weight
   CHECK_THROWS_WITH(cube.model.overlap()->move_to(
                         {cube.weight_above(cube.box.low[2] + cube.third()), cube.model.overlap()->reference_by_id()}),
                     Catch::Matchers::Contains("bring back element"));
+}
+
+TEST_CASE("weights of one overlap change beside those of another")
+{
+  coupling::SolidMover mover(std::make_unique<fe::ExplicitBody>(
+      fe::make_box_body({{0, 0, 0}, {1, 1, 2}, {1, 1, 2}}, fe::ExplicitBodyParameters())));
+  const std::size_t n = mover.solid().n_nodes();
+  const double whole = mover.solid().mass()[0];
+  const std::vector<double> first(n, 0.2), second(n, 0.3), other(n, 0.4);
+  mover.add_weights(first);
+  mover.add_weights(second);
+  mover.change_weights(first, other);
+  for (const double weight : mover.weights())
+    CHECK(weight == Approx(0.7));
+  CHECK(mover.solid().mass()[0] == Approx(0.3 * whole));
 }
