@@ -379,7 +379,7 @@ MUTATIONS = [
         ("material/matsuoka_nakai.h", "-18 * determinant", "18 * determinant", "Matsuoka-Nakai*"),
         ("material/mohr_coulomb.h", "(1 - s) * t1 - 2. * t2 + (1 + s) * t3", "t1 - 2. * t2 + t3", "Mohr-Coulomb*"),
         ("material/mooney_rivlin.h", "first() * x - second() / x", "first() * x + second() / x",
-         "rubber under uniaxial*,Ogden's law*"),
+         "a rubber sheet*,a membrane's forces*"),
         ("material/neo_hooke.h", "bulk_modulus() - 2 * shear_modulus() / 3}", "bulk_modulus()}", "at small strain*"),
         ("material/ogden.h", "(p.modulus[n] / p.exponent[n]) * (power - 1.)", "p.modulus[n] * (power - 1.)",
          "the stress of*"),

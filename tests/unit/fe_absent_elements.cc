@@ -64,6 +64,7 @@ TEST_CASE("Elements without any share are absent: their own nodes stay, the othe
     CHECK(body.displacement()[3 * node + 2] == (is_gone ? Approx(0).margin(1e-300) : Approx(-fallen).epsilon(0.02)));
   }
   CHECK(std::abs(body.energy().residual()) < 1e-9 * body.energy().gravity_work);
+  CHECK(body.state_of(2).stress == Stress{}); // whatever becomes of the nodes that it shares
 
   const TemporaryFolder folder;
   write_vtu(body, folder / "body.vtu");
