@@ -42,6 +42,7 @@ class Results(Case):
         self.assertLess(figures["energy_residual"], 1e-11)  # rounding of some thousand steps
         self.assertLess(figures["kinetic_over_elastic_energy"], 0.01)
         self.assertLess(figures["time_step_s"], figures["stable_time_step_s"])
+        self.assertIn("set settlement", (self.tmp / "cohesive" / "parameters.prm").read_text())  # what it was run with
         with open(self.tmp / "cohesive" / "history.csv", newline="") as file:
             rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
         self.assertAlmostEqual(rows[-1]["settlement_m"], 0.03, delta=1e-4)
