@@ -206,6 +206,7 @@ MUTATIONS = [
     ),
     *in_folder(
         "drivers/common", "unit_driver",
+        ("run/visit_models.cc", 'visit("continuum/steps/" + name, values);', "(void)visit;", "a restarted run takes*"),
         ("run/rotation_watch.cc", "greatest_ = std::max(greatest_, now.angle);", "", "a body of small strain that*"),
         ("run/snapshot.cc", "  wait();\n  behind_ =", "  behind_ =", "a snapshot written behind*"),
         ("run/run_loop.cc", "std::max(plan_.interval, held_up_ / SnapshotPlan::largest_share)", "plan_.interval",
@@ -308,8 +309,6 @@ MUTATIONS = [
         ("run_folder.h", 'file("snapshot.h5")', 'file("snapshot.h6")', "Restart"),
         ("run/run.cc", "if (!command_line_.restart)\n    write_whole_file(folder_.parameters(), parameters_);", "",
          "Results.test_cohesive"),
-        ("run/visit_models.cc", 'visit("continuum/steps/" + name, values);', "(void)visit;", "Restart"),
-        ("dealii_start.cc", "dealii::MultithreadInfo::set_thread_limit(1);", "", "Results"),
         ("mpi_start.cc", "files.rlim_cur < files_of_mpi", "false", "Mpi"),
     ),
     *in_folder(

@@ -37,6 +37,7 @@ class Results(Case):
         self.assertEqual(figures["undecided_contacts"], 0)
         self.assertLess(figures["energy_residual"], 5e-3)
         self.assertLess(figures["max_overlap_over_radius"], 0.1)
+        self.assertLess(figures["time_step_s"], figures["stable_time_step_s"])
         self.assertTrue(0.8 < figures["mass_flow_kg_s"] / figures["usual_beverloo_flow_kg_s"] < 2, figures)
         self.assertTrue(0.5 < figures["bulk_density_kg_m3"] / 2650 < 0.7, figures)
 
