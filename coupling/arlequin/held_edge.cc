@@ -102,6 +102,7 @@ double HeldEdge::renew(const Overlap &overlap, const std::span<const Eigen::Vect
   std::unordered_map<std::int64_t, std::int32_t> place;
   for (std::size_t particle = 0; particle < overlap.n_particles(); ++particle)
     place.emplace(overlap.particle_id[particle], static_cast<std::int32_t>(particle));
+  energy_.resize(size(), 0.); // none is known before the first add_forces()
   double let_go = 0.;
   std::vector<bool> is_gone(size(), false);
   for (std::size_t k = 0; k < size(); ++k)
@@ -124,6 +125,7 @@ double HeldEdge::become(HeldEdge other, std::vector<std::size_t> &fresh)
   std::unordered_map<std::int64_t, std::size_t> own;
   for (std::size_t k = 0; k < size(); ++k)
     own.emplace(id_[k], k);
+  energy_.resize(size(), 0.);
   double let_go = std::accumulate(energy_.begin(), energy_.end(), 0.);
   other.energy_.assign(other.size(), 0.);
   for (std::size_t k = 0; k < other.size(); ++k)
@@ -149,6 +151,7 @@ void HeldEdge::copy(const std::size_t from, const HeldEdge &other, const std::si
   shift_[to] = other.shift_[from];
   dead_load[to] = other.dead_load[from];
   place_[to] = other.place_[from];
+  energy_[to] = other.energy_[from];
   std::copy_n(other.node_.begin() + n_nodes * from, n_nodes, node_.begin() + n_nodes * to);
 }
 
@@ -164,6 +167,7 @@ void HeldEdge::remove(const std::vector<bool> &is_gone)
   shift_.resize(kept);
   dead_load.resize(kept);
   place_.resize(kept);
+  energy_.resize(kept);
   node_.resize(n_nodes * kept);
 }
 

@@ -120,6 +120,45 @@ TEST_CASE("springs and dead loads of a held edge are the gradient of their energ
         1e-12 * of_springs[0].norm());
 }
 
+TEST_CASE("an edge that loses particles and becomes another one gives back the energy of those it lets go, once")
+{
+  Overlap overlap = test::block(3, 40);
+  const LinearWeights weights(overlap, 3);
+  HeldEdge edge(overlap, weights.node, weights.particle, {.depth = 3., .stiffness = 1e12});
+  const std::vector<double> fe(test::n_dofs(overlap), 0.);
+  std::vector<double> fe_force(fe.size());
+  const auto energy_of = [&](HeldEdge &some, const Overlap &of)
+  {
+    std::vector<Eigen::Vector3d> difference, force(some.size());
+    for (const std::int32_t particle : some.particles()) // each its own
+      difference.emplace_back(1e-8 * static_cast<double>(of.particle_id[particle] + 1), 2e-7, 0.);
+    return some.add_forces(difference, fe, force, fe_force, HeldEdge::Loads::all);
+  };
+  const double before = energy_of(edge, overlap);
+
+  const std::size_t lost = edge.particles()[2]; // no longer in the overlap
+  const auto erase = [&](auto &values, const std::size_t n)
+  { values.erase(values.begin() + n * lost, values.begin() + n * (lost + 1)); };
+  erase(overlap.particle_id, 1);
+  erase(overlap.particle_volume, 1);
+  erase(overlap.reference_position, 1);
+  erase(overlap.shape_node, 8);
+  erase(overlap.shape_value, 8);
+  erase(overlap.shape_gradient, 8);
+  overlap.shape_offset.pop_back();
+  const double let_go =
+      edge.renew(overlap, std::vector(overlap.n_particles(), Eigen::Vector3d(Eigen::Vector3d::Zero())));
+  CHECK(let_go > 0.);
+  const LinearWeights left(overlap, 3);
+  std::vector<std::size_t> fresh;
+  const std::size_t n_before = edge.size();
+  const double given_up =
+      edge.become(HeldEdge(overlap, left.node, left.particle, {.depth = 1., .stiffness = 1e12}), fresh);
+  CHECK(fresh.empty());
+  REQUIRE(edge.size() < n_before);
+  CHECK(let_go + given_up + energy_of(edge, overlap) == Approx(before).epsilon(1e-12));
+}
+
 TEST_CASE("the stable step of a coupling knows the stiffness of its edge and not its dead loads")
 {
   // So stiff that it alone counts, on nodes that do not move: omega^2 = V k / m for each grain by itself.
