@@ -128,14 +128,19 @@ def draw(folder, seed):
     run_data.save_diagram(figure, str(folder), "domains.png")
 
 
-def main():
-    parser = studies.argument_parser(__doc__, "pile_installation")
+def arguments_of(description):
+    """Program, folder, seeds and settings for all runs, from the command line of a study of this driver."""
+    parser = studies.argument_parser(description, "pile_installation")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    folder, seeds = arguments.folder.resolve(), range(1, arguments.seeds + 1)
     common = dict(text.split("=", 1) for text in getattr(arguments, "set"))
-    write_table(measure(arguments.program.resolve(), folder, seeds, common), folder / "domains.csv")
+    return arguments.program.resolve(), arguments.folder.resolve(), range(1, arguments.seeds + 1), common
+
+
+def main():
+    program, folder, seeds, common = arguments_of(__doc__)
+    write_table(measure(program, folder, seeds, common), folder / "domains.csv")
     print((folder / "domains.csv").read_text(), end="")
     draw(folder, seeds[0])
 

@@ -13,7 +13,7 @@ import csv
 import statistics
 
 import numpy as np
-from domain_study import ANOTHER_STEP, differences, parting, run_data, smoothed, studies, timed_run
+from domain_study import ANOTHER_STEP, arguments_of, differences, parting, run_data, smoothed, studies, timed_run
 
 DEEP = {"Model/block width": 0.022, "Model/block depth": 0.0125}
 KINDS = {"deep": DEEP, "deep, another step": {**DEEP, "Pile/time step": ANOTHER_STEP},
@@ -70,13 +70,8 @@ def draw(folder, seeds):
 
 
 def main():
-    parser = studies.argument_parser(__doc__, "pile_installation")
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")
-    arguments = parser.parse_args()
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    folder, seeds = arguments.folder.resolve(), range(1, arguments.seeds + 1)
-    rows = measure(arguments.program.resolve(), folder, seeds,
-                   dict(text.split("=", 1) for text in getattr(arguments, "set")))
+    program, folder, seeds, common = arguments_of(__doc__)
+    rows = measure(program, folder, seeds, common)
     write_table(rows, folder / "growth.csv")
     print((folder / "growth.csv").read_text(), end="")
     for kind in list(KINDS)[1:]:
