@@ -22,6 +22,14 @@ void declare_mohr_coulomb(ParameterFile &file, const std::string &section, fe::M
            "at which Young's modulus holds; 0: it holds at any pressure [Pa]", Range::non_negative());
   file.add(section, "stiffness exponent", continuum.stiffness_exponent,
            "the modulus grows as (pressure / reference pressure) to this power", Range::between(0, 1));
+  file.add(
+      section, "hardening strain", continuum.hardening_strain,
+      "plastic strain that mobilises half of what the friction has to gain; the dilation follows it (Rowe); 0: all "
+      "is there at once",
+      Range::non_negative());
+  file.add(section, "initial friction angle", continuum.initial_friction_angle,
+           "that the hardening begins with [degree]",
+           {.lowest = 0, .highest = 90, .lowest_included = false, .highest_included = false});
   file.add(section, "density", continuum.density, "of the bulk: grains and voids, by either law [kg/m3]",
            Range::positive());
 }

@@ -10,18 +10,25 @@ namespace bergamo::driver
 namespace
 {
 
+struct Point
+{
+  fe::Stress stress;
+  double plastic_strain = 0;
+};
+
 struct Step
 {
   double lateral_strain; ///< increment
-  fe::Stress stress;
+  Point point;           ///< after it
 };
 
 /// Secant steps for the lateral strain that holds the pressure. The residual is increasing and made of two straight
 /// pieces, elastic and on the edge, so few steps end it.
-Step hold_pressure(const fe::MohrCoulomb &material, const fe::Stress &old, const double axial, const double pressure)
+Step hold_pressure(const fe::MohrCoulomb &material, const Point &point, const double axial, const double pressure)
 {
-  const auto stress_at = [&](const double lateral) {
-    return material.update(old, {lateral, lateral, axial, 0, 0, 0}).stress;
+  const fe::Stress &old = point.stress;
+  const auto update_at = [&](const double lateral) {
+    return material.update(old, {lateral, lateral, axial, 0, 0, 0}, point.plastic_strain);
   };
   const auto residual_of = [&](const fe::Stress &stress) { return 0.5 * (stress[0] + stress[1]) + pressure; };
 
@@ -32,14 +39,14 @@ Step hold_pressure(const fe::MohrCoulomb &material, const fe::Stress &old, const
   { return 1e-12 * pressure + 1e-14 * (modulus * (std::abs(axial) + std::abs(lateral)) + std::abs(old[2])); };
 
   double earlier = 0;
-  double earlier_residual = residual_of(stress_at(earlier));
+  double earlier_residual = residual_of(update_at(earlier).stress);
   double lateral = -earlier_residual / modulus;
   for (int iteration = 0; iteration < 100; ++iteration)
   {
-    const fe::Stress stress = stress_at(lateral);
-    const double residual = residual_of(stress);
+    const fe::StressUpdate update = update_at(lateral);
+    const double residual = residual_of(update.stress);
     if (std::abs(residual) <= tolerance(lateral))
-      return {lateral, stress};
+      return {lateral, {update.stress, point.plastic_strain + fe::equivalent_strain(update.plastic_strain)}};
     const double slope = (residual - earlier_residual) / (lateral - earlier);
     earlier = lateral;
     earlier_residual = residual;
@@ -55,20 +62,20 @@ TriaxialCurve drive_triaxial(const fe::MohrCoulomb &material, const TriaxialStar
                              const std::span<const double> axial_strains)
 {
   const double p = start.confining_pressure;
-  fe::Stress stress{-p, -p, -p, 0, 0, 0};
+  Point point{{-p, -p, -p, 0, 0, 0}};
   double axial = 0, lateral = 0;
   TriaxialCurve curve;
   for (const double next_axial : axial_strains)
   {
-    const Step step = hold_pressure(material, stress, next_axial - axial, p);
-    stress = step.stress;
+    const Step step = hold_pressure(material, point, next_axial - axial, p);
+    point = step.point;
     axial = next_axial;
     lateral += step.lateral_strain;
     const double volumetric = axial + 2 * lateral;
     curve.axial_strain.push_back(axial);
     curve.volumetric_strain.push_back(volumetric);
-    curve.axial_stress.push_back(stress[2]);
-    curve.lateral_stress.push_back(0.5 * (stress[0] + stress[1]));
+    curve.axial_stress.push_back(point.stress[2]);
+    curve.lateral_stress.push_back(0.5 * (point.stress[0] + point.stress[1]));
     curve.solid_fraction.push_back(start.initial_solid_fraction / (1 + volumetric));
   }
   return curve;

@@ -2,9 +2,10 @@
 """Whether two scales give the stresses of grains alone, on the three strain paths of Wellmann's figure 6.4b and in an
 oedometer, all after an isotropic compression.
 
-For every packing, grains alone take the paths, and a Mohr-Coulomb continuum whose stiffness grows with the pressure is
-fitted to their stresses on all of them (least squares, then least sixth powers: nearly the least largest error). Then the continuum alone and the two-scale cube with the same
-grains take the same paths. The error of a principal stress is its largest difference from grains alone over the path, over
+For every packing, grains alone take the paths, and a Mohr-Coulomb continuum whose stiffness grows with the pressure and
+whose friction is mobilised by plastic strain is fitted to their stresses on all of them (least squares, then least
+sixth powers: nearly the least largest error). Then the continuum alone and the two-scale cube with the same grains take
+the same paths. The error of a principal stress is its largest difference from grains alone over the path, over
 the largest stress of grains alone: that of the continuum alone is the law's.
 
 Writes FOLDER/paths.csv, FOLDER/continuum-SEED.json and FOLDER/plots/paths.png, and prints the table. Runs that are finished
@@ -30,18 +31,22 @@ TITLES = ["path 1: unloading", "path 2: constant volume", "path 3: compression",
 MODELS = {"continuum alone": {"Model/kind": "continuum"}, "lumped projection": {},
           "consistent projection": {"Coupling/projection": "consistent"}}
 
-# What is fitted: name, start, bounds. The modulus is that at 1 MPa.
-UNKNOWNS = [("Continuum/Young's modulus", 5e8, 5e7, 5e9), ("Continuum/stiffness exponent", 0.4, 0.01, 0.99),
-            ("Continuum/Poisson's ratio", 0.15, 0.01, 0.45), ("Continuum/friction angle", 20, 5, 50),
-            ("Continuum/dilation angle", -1, -15, 5)]
+# What is fitted: name, start, bounds. The modulus is that at 1 MPa. What spans decades is taken by its logarithm.
+UNKNOWNS = [("Continuum/Young's modulus", 8e8, 5e7, 5e9), ("Continuum/stiffness exponent", 0.33, 0.01, 0.99),
+            ("Continuum/Poisson's ratio", 0.08, 0, 0.45), ("Continuum/friction angle", 21, 8, 50),
+            ("Continuum/dilation angle", -1, -15, 5), ("Continuum/hardening strain", 1e-3, 1e-5, 0.1)]
 
 
 def settings_of(scaled):
-    """Of the driver, from unknowns that run from 0 to 1 between their bounds (the modulus by its logarithm)."""
+    """Of the driver, from unknowns that run from 0 to 1 between their bounds."""
     settings = {"Continuum/reference pressure": 1e6}
     for x, (name, _, low, high) in zip(scaled, UNKNOWNS):
-        settings[name] = float(low * (high / low) ** x if "modulus" in name else low + x * (high - low))
+        settings[name] = float(low * (high / low) ** x if spans_decades(low, high) else low + x * (high - low))
     return settings
+
+
+def spans_decades(low, high):
+    return low > 0 and high > 50 * low
 
 
 def fit(program, common, alone):
@@ -63,8 +68,8 @@ def fit(program, common, alone):
                 found += [(at(name) - history[name]) / largest[path] for name in STRESSES]
             return np.concatenate(found)
 
-    start = [np.log(start / low) / np.log(high / low) if "modulus" in name else (start - low) / (high - low)
-             for name, start, low, high in UNKNOWNS]
+    start = [np.log(start / low) / np.log(high / low) if spans_decades(low, high) else (start - low) / (high - low)
+             for _, start, low, high in UNKNOWNS]
     options = {"bounds": (0, 1), "xtol": 1e-3, "ftol": 1e-3, "max_nfev": 15}
     nearest = least_squares(residual, start, diff_step=0.02, **options).x
     return settings_of(least_squares(lambda x: residual(x)**3, np.clip(nearest, 0.01, 0.99), diff_step=0.01, **options).x)

@@ -12,7 +12,7 @@ namespace bergamo::fe
 struct PointHistory
 {
   Points stress[6];         ///< xx yy zz xy yz zx [Pa]
-  Points plastic_strain;    ///< accumulated equivalent_strain() of the plastic increments [-]
+  Points plastic_strain;    ///< sum of equivalent_strain() of the plastic increments, and what the start mobilises [-]
   Points dissipated_energy; ///< accumulated plastic dissipation, share included [J]
   Points stiffness_loss;    ///< elastic work less what is stored, share included, where the stiffness varies [J]
 };

@@ -154,14 +154,20 @@ KeptShare kept_share_of(const Varying &kept, const Varying &of)
   return share;
 }
 
-/// As hourglass_step() has it. @param moduli derivative of the stress after the increment [Pa]
-KeptShare kept_share_of(const MohrCoulomb &law, const Stress &before, const Strain &increment, const double stiffness,
-                        const Moduli &moduli)
+struct HardenedStress
 {
-  const StressUpdate update = law.update(before, increment);
+  Stress stress;
+  double plastic_strain;
+};
+
+/// As hourglass_step() has it. @param moduli derivative of the stress after the increment [Pa]
+KeptShare kept_share_of(const MohrCoulomb &law, const HardenedStress &before, const Strain &increment,
+                        const double stiffness, const Moduli &moduli)
+{
+  const StressUpdate update = law.update(before.stress, increment, before.plastic_strain);
   if (update.sector == Sector::elastic)
     return {};
-  Varying kept(update.stress, moduli), trial = trial_of(law, before, increment, stiffness);
+  Varying kept(update.stress, moduli), trial = trial_of(law, before.stress, increment, stiffness);
   take_off_mean(kept.value);
   take_off_mean(trial.value);
   return kept_share_of(kept, trial);
@@ -438,7 +444,9 @@ void SmallStrainBending<Law>::tangent(const std::size_t element, const double *d
   const std::size_t pack = element / points_per_pack, lane = element % points_per_pack;
   KeptShare kept;
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
-    kept = kept_share_of(this->law(), this->stress(element, 0), strain, factor, moduli);
+    kept =
+        kept_share_of(this->law(), HardenedStress{this->stress(element, 0), this->history(pack).plastic_strain[lane]},
+                      strain, factor, moduli);
   else if constexpr (std::is_same_v<Law, HypoplasticSand>)
     kept = kept_share_of(this->law(), sand_state(this->history(pack), lane), strain, factor, moduli);
   stiffness_matrix(geometry, moduli, kept.value * factor, matrix);

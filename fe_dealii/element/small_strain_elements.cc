@@ -51,7 +51,7 @@ ElementState SmallStrainElements<Law>::state_of(const std::size_t element, const
     state.energy_density += fraction * stored_energy(element, point);
   }
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
-    state.yield_function = law_.yield_function(state.stress);
+    state.yield_function = law_.yield_function(state.stress, state.plastic_strain);
   return state;
 }
 
@@ -130,6 +130,9 @@ Moduli SmallStrainElements<Law>::tangent_moduli(const std::size_t element, const
 {
   if constexpr (std::is_same_v<Law, HypoplasticSand>)
     return consistent_tangent(law_, sand_state(history_of(element, point), lane_of(element, point)), strain_increment);
+  else if constexpr (std::is_same_v<Law, MohrCoulomb>)
+    return law_.tangent(stress(element, point), strain_increment,
+                        history_of(element, point).plastic_strain[lane_of(element, point)]);
   else
     return law_.tangent(stress(element, point), strain_increment);
 }
@@ -154,7 +157,7 @@ template <class Law>
 bool SmallStrainElements<Law>::has_symmetric_tangent() const
 {
   if constexpr (std::is_same_v<Law, MohrCoulomb>)
-    return law_.parameters().friction_angle == law_.parameters().dilation_angle;
+    return !law_.hardens() && law_.parameters().friction_angle == law_.parameters().dilation_angle;
   else
     return std::is_same_v<Law, LinearElastic>;
 }

@@ -124,8 +124,11 @@ void add_start(const dealii::FEValues<3> &values, const Law &law, const InitialS
       check_initial_state(law, {stress, law.parameters().initial_void_ratio}, place);
     else
       check_initial_stress(law, stress, place);
+    auto &history = start[first + point / points_per_pack];
     for (int i = 0; i < 6; ++i)
-      start[first + point / points_per_pack].stress[i][point % points_per_pack] = stress[i];
+      history.stress[i][point % points_per_pack] = stress[i];
+    if constexpr (std::is_same_v<Law, MohrCoulomb>)
+      history.plastic_strain[point % points_per_pack] = law.mobilising_strain(stress);
   }
 }
 

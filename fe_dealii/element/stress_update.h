@@ -55,7 +55,8 @@ inline void flow_plastically(const MohrCoulomb &material, const Points &volume, 
     stress_old[i] = part(history.stress[i], first);
     stress_trial[i] = part(trial[i], first);
   }
-  const PlasticFlow<Pack> flow = plastic_flow(material, stress_old, stress_trial, part(softness, first));
+  const PlasticFlow<Pack> flow =
+      plastic_flow(material, stress_old, stress_trial, part(softness, first), part(history.plastic_strain, first));
   for (int i = 0; i < 6; ++i)
     set_part(flow.stress[i], first, trial[i]);
   set_part(part(history.plastic_strain, first) + flow.strain, first, history.plastic_strain);
@@ -107,7 +108,7 @@ inline bool update_stress(const MohrCoulomb &material, const Points &weighted_vo
   for (int i = 0; i < 6; ++i)
     trial[i] = history.stress[i] + stiffness * trial[i];
   const Invariants of_trial = invariants_of(trial);
-  const auto elastic = material.is_surely_elastic(of_trial.mean, of_trial.j2);
+  const auto elastic = material.is_surely_elastic(of_trial.mean, of_trial.j2, history.plastic_strain);
   for (int point = 0; point < points_per_pack; ++point)
     sector[point] = Sector::elastic;
   if (math::any(!elastic))

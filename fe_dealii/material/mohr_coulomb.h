@@ -1,11 +1,11 @@
 #pragma once
 
+#include "fe_dealii/material/mohr_coulomb_surface.h"
 #include "fe_dealii/material/principal.h"
 #include "fe_dealii/material/tensor.h"
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 namespace bergamo::fe
 {
@@ -22,23 +22,18 @@ struct MohrCoulombParameters
   double density = 1600;         ///< of the packing as a whole [kg/m³], > 0
   double reference_pressure = 0; ///< p_r at which the Young's modulus holds [Pa]; 0: it holds at any pressure
   double stiffness_exponent = 0.5; ///< m: the modulus grows as (p/p_r)^m [-], in [0, 1]
+  double hardening_strain = 0;     ///< a: plastic strain that mobilises half of what friction can gain; 0: all is there
+  double initial_friction_angle = 5; ///< φ0 [degrees], in (0, friction_angle], where the friction hardens
 
   /// Dilation angle, negative, from which on contraction takes the pressure from a stress faster than its shear, so
   /// that no flow brings it back to the yield surface [degrees].
   double least_dilation_angle() const;
 
+  /// sin φ_cv, of steady flow, that Rowe's relation takes from both angles.
+  double sine_of_steady_friction() const;
+
   /// Throws ConfigError that names the first value outside its range.
   void validate() const;
-};
-
-/// The part of the yield surface that a stress ended on.
-enum class Sector : std::uint8_t
-{
-  elastic,    ///< inside
-  main_plane, ///< σ1 > σ2 > σ3
-  right_edge, ///< σ2 = σ3, triaxial extension
-  left_edge,  ///< σ1 = σ2, triaxial compression
-  apex        ///< σ1 = σ2 = σ3 = c cot φ
 };
 
 struct StressUpdate
@@ -49,20 +44,16 @@ struct StressUpdate
   double plastic_dissipation; ///< ½(σ_old + σ_new) : Δε_p [J/m³]; closes the balance of a leapfrog exactly
 };
 
-/// Principal stresses after the return, of one stress or of a pack of them.
-template <class Real>
-struct PrincipalReturn
-{
-  math::Mask<Real> yields; ///< the trial stress lies beyond the surface; else the values mean nothing
-  Real value[3];           ///< on the surface, falling [Pa]
-  Real sector;             ///< a Sector as a number
-};
-
-/// Small-strain, perfectly plastic, non-associative Mohr–Coulomb law: with σ1 >= σ2 >= σ3, tension positive,
+/// Small-strain, non-associative Mohr–Coulomb law: with σ1 >= σ2 >= σ3, tension positive,
 ///   Φ = σ1 − σ3 + (σ1 + σ3) sin φ − 2 c cos φ <= 0,   flow along ∂Ψ/∂σ, Ψ = Φ with ψ in place of φ.
 /// A negative ψ is that of loose sand, which contracts as it is sheared: at constant volume its pressure falls.
-/// Implicit return in principal stresses, closed form: de Souza Neto, Perić, Owen, Computational Methods for
-/// Plasticity (2008), sec. 8.2.
+/// Implicit return in principal stresses, closed form, see MohrCoulombSurface.
+///
+/// Perfectly plastic without a hardening strain a. With one the friction is mobilised by the plastic strain κ, from φ0
+/// on, along a hyperbola, and the dilation follows it (Rowe 1962; Vermeer and de Borst 1984, sec. 5):
+///   sin φ_m = sin φ0 + (sin φ − sin φ0) κ/(a + κ),   sin ψ_m = (sin φ_m − sin φ_cv)/(1 − sin φ_m sin φ_cv),
+/// with the φ_cv of steady flow for which ψ_m is ψ at φ: sand contracts at first, and dilates once its friction exceeds
+/// that. κ is the sum of equivalent_strain() over the plastic increments; an increment takes both angles of its start.
 ///
 /// With a reference pressure both moduli grow as (p/p_r)^m of the pressure p at the start of an increment, from a
 /// hundredth of p_r on (Janbu 1963; m = 1/3 for Hertz contacts, about 0.5 for sands). Poisson's ratio stays. Such a law
@@ -75,23 +66,54 @@ public:
   explicit MohrCoulomb(const MohrCoulombParameters &parameters);
 
   /// Stress after a strain increment from an admissible stress. Works for increments of any size.
-  StressUpdate update(const Stress &stress_old, const Strain &strain_increment) const;
+  /// @param plastic_strain κ before the increment [-]
+  StressUpdate update(const Stress &stress_old, const Strain &strain_increment, double plastic_strain = 0) const;
 
   /// The plastic half of update(): brings an elastic trial stress back to the yield surface (or leaves it inside).
   /// `frame` is the principal frame of the trial stress, `stiffness` the factor of the moduli in this increment.
   StressUpdate return_to_surface(const Stress &stress_old, const Stress &stress_trial,
-                                 const PrincipalFrame<double> &frame, double stiffness = 1) const;
+                                 const PrincipalFrame<double> &frame, double stiffness = 1,
+                                 double plastic_strain = 0) const;
 
-  /// The return by itself: principal trial stresses, falling, to new ones; the principal frame stays. Sectors are
-  /// chosen by masks.
+  /// Principal trial stresses, falling, back to the surface that a plastic strain has mobilised.
   template <class Real>
-  PrincipalReturn<Real> return_principal(const Real (&trial)[3]) const;
+  PrincipalReturn<Real> return_principal(const Real (&trial)[3], const Real &plastic_strain = Real(0.)) const
+  {
+    return hardens() ? surface(plastic_strain).return_principal(trial) : surface_.return_principal(trial);
+  }
 
   /// Derivative of update()'s stress by the strain increment; exact, since the return is linear in each sector. Not
   /// symmetric where dilation and friction angle differ.
-  Moduli tangent(const Stress &stress_old, const Strain &strain_increment) const;
+  Moduli tangent(const Stress &stress_old, const Strain &strain_increment, double plastic_strain = 0) const;
 
+  bool hardens() const { return parameters_.hardening_strain > 0; }
   bool depends_on_pressure() const { return parameters_.reference_pressure > 0; }
+
+  /// sin φ_m; `plastic_strain` κ may be a pack, here and below.
+  template <class Real>
+  Real sine_of_friction(const Real &plastic_strain) const
+  {
+    const double gain = surface_.friction - sin_initial_;
+    return hardens() ? Real(sin_initial_ + gain * (plastic_strain / (parameters_.hardening_strain + plastic_strain)))
+                     : Real(surface_.friction);
+  }
+  /// sin ψ_m of a sin φ_m.
+  template <class Real>
+  Real sine_of_dilation(const Real &sine_of_friction) const
+  {
+    return hardens() ? Real((sine_of_friction - sin_steady_) / (1. - sine_of_friction * sin_steady_))
+                     : Real(surface_.dilation);
+  }
+  template <class Real>
+  MohrCoulombSurface<Real> surface(const Real &plastic_strain) const
+  {
+    const Real friction = sine_of_friction(plastic_strain);
+    return {friction, sine_of_dilation(friction), parameters_.cohesion, bulk_, shear_};
+  }
+
+  /// κ of the surface through a stress, which must not exceed the full strength; zero where the initial one holds it
+  /// or nothing hardens. Of a stress at the full strength, which no κ mobilises, as much as leaves a millionth to gain.
+  double mobilising_strain(const Stress &stress) const;
 
   /// Factor of the moduli at a mean stress, tension positive. `mean` may be a SIMD pack.
   template <class Real>
@@ -153,17 +175,23 @@ public:
   /// Sufficient for Φ <= 0, without eigenvalues. In invariants Φ/2 = sqrt(J2)(cos θ − sin θ sin φ/√3) + p̂ sin φ −
   /// c cos φ (ibid. 6.121); the bracket is at most sqrt(1 + sin²φ/3) over all Lode angles θ. `J2` may be a SIMD pack.
   template <class Real>
-  auto is_surely_elastic(const Real &mean, const Real &j2) const
+  auto is_surely_elastic(const Real &mean, const Real &j2, const Real &plastic_strain = Real(0.)) const
   {
-    const Real slack = cohesion_cos_ - mean * sin_friction_;
-    return (slack >= 0.) & (j2 * worst_lode_ <= slack * slack);
+    const Real friction = sine_of_friction(plastic_strain);
+    const Real slack = surface_.cohesion_cos - mean * friction; // cos φ falls as φ_m grows
+    return (slack >= 0.) & (j2 * (1. + friction * friction / 3.) <= slack * slack);
   }
 
-  /// Φ [Pa].
-  double yield_function(const Stress &stress) const;
+  /// Φ of the full strength [Pa].
+  double yield_function(const Stress &stress) const { return yield_function(stress, surface_); }
+  /// Φ of what a plastic strain has mobilised [Pa].
+  double yield_function(const Stress &stress, const double plastic_strain) const
+  {
+    return yield_function(stress, surface(plastic_strain));
+  }
 
-  /// Largest mean stress, c cot φ; infinite without friction [Pa].
-  double apex() const { return parameters_.friction_angle > 0 ? apex_ : HUGE_VAL; }
+  /// Largest mean stress of the full strength, c cot φ; infinite without friction [Pa].
+  double apex() const { return parameters_.friction_angle > 0 ? surface_.apex : HUGE_VAL; }
   double bulk_modulus() const { return bulk_; }          ///< K [Pa]
   double shear_modulus() const { return shear_; }        ///< G [Pa]
   double lame_modulus() const { return lame_; }          ///< λ = K − 2G/3 [Pa]
@@ -171,64 +199,16 @@ public:
   const MohrCoulombParameters &parameters() const { return parameters_; }
 
 private:
-  using PrincipalMatrix = std::array<std::array<double, 3>, 3>;
-  /// Derivative of the principal stresses after the return by those of the trial stress.
-  PrincipalMatrix principal_tangent(Sector sector) const;
+  void require_flow_to_bring_back() const;
+  static double yield_function(const Stress &stress, const MohrCoulombSurface<double> &surface);
 
   static constexpr double least_pressure_share = 0.01; // of the reference pressure
 
   MohrCoulombParameters parameters_;
   double bulk_, shear_, lame_;
-  double sin_friction_, sin_dilation_, cohesion_cos_; // cohesion_cos_ = c cos φ
-  double worst_lode_;                                 // 1 + sin²φ/3
-  double apex_;                                       // c cot φ
-  double plane_;                                      // a in the reference: ∂Φ : C : ∂Ψ of one plane with itself
-  double right_, left_;                               // b: of the main plane with its neighbour across an edge
-  // Stress changes per Φ on the main plane, of the middle and the most compressive component, and per Φ + Φ2 of the
-  // most compressive one on the edges.
-  double plane_middle_, plane_minor_, right_minor_, left_minor_;
-  double stored_below_ = 0;              // what the energy stored is beyond power p²/K, of the constant part [Pa²]
-  double tensile_slope_, tensile_start_; // σ1 = slope σ3 + start where Φ = 0
+  MohrCoulombSurface<double> surface_; // of the full strength
+  double sin_initial_, sin_steady_;    // sin φ0, sin φ_cv
+  double stored_below_ = 0;            // what the energy stored is beyond power p²/K, of the constant part [Pa²]
 };
-
-template <class Real>
-PrincipalReturn<Real> MohrCoulomb::return_principal(const Real (&trial)[3]) const
-{
-  const Real &t1 = trial[0], &t2 = trial[1], &t3 = trial[2];
-  const double f = sin_friction_, s = sin_dilation_;
-  PrincipalReturn<Real> result;
-  const Real phi = (1 + f) * t1 - (1 - f) * t3 - 2 * cohesion_cos_;
-  result.yields = phi > 0.;
-
-  // The most tensile stress follows from Φ = 0 and the most compressive one, so that Φ = 0 holds to rounding.
-  const Real minor = t3 - plane_minor_ * phi, middle = t2 - plane_middle_ * phi,
-             major = tensile_slope_ * minor + tensile_start_;
-  const math::Mask<Real> on_plane = (major >= middle) & (middle >= minor);
-
-  // The plane through the hydrostatic axis along the flow splits what goes to either edge (ibid. 8.2.3). On the side
-  // chosen, the middle stress has overtaken its neighbour, so both multipliers come out positive. Only their sum,
-  // (Φ + Φ2)/(a + b), enters.
-  const math::Mask<Real> is_right = (1 - s) * t1 - 2. * t2 + (1 + s) * t3 >= 0.;
-  const Real greater = math::select(is_right, t1, t2), smaller = math::select(is_right, t2, t3);
-  const Real both = phi + ((1 + f) * greater - (1 - f) * smaller - 2 * cohesion_cos_);
-  const Real on_right = 0.5 * (t2 + t3) - right_minor_ * both, on_left = t3 - left_minor_ * both;
-  const Real edge_minor = math::select(is_right, on_right, on_left);
-  const Real edge_major = tensile_slope_ * edge_minor + tensile_start_;
-
-  // Beyond the apex the surface's mirror image waits. Without dilation the flow rule alone cannot lower the mean
-  // stress; the apex is then the nearest admissible state. Without friction the two planes are parallel.
-  const math::Mask<Real> is_apex = !(on_plane | (edge_major >= edge_minor));
-  const Real apex_or(apex_);
-  result.value[2] = math::select(is_apex, apex_or, math::select(on_plane, minor, edge_minor));
-  result.value[0] = math::select(is_apex, apex_or, math::select(on_plane, major, edge_major));
-  result.value[1] = math::select(on_plane, middle, math::select(is_right, result.value[2], result.value[0]));
-
-  const auto number = [](const Sector sector) { return Real(static_cast<double>(sector)); };
-  const Real edge = math::select(is_right, number(Sector::right_edge), number(Sector::left_edge));
-  const Real beyond = math::select(is_apex, number(Sector::apex), edge);
-  const Real surface = math::select(on_plane, number(Sector::main_plane), beyond);
-  result.sector = math::select(result.yields, surface, number(Sector::elastic));
-  return result;
-}
 
 } // namespace bergamo::fe

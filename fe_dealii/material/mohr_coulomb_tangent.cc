@@ -1,19 +1,22 @@
 #include "fe_dealii/material/mohr_coulomb.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace bergamo::fe
 {
 
-MohrCoulomb::PrincipalMatrix MohrCoulomb::principal_tangent(const Sector sector) const
+namespace
+{
+
+using PrincipalMatrix = std::array<std::array<double, 3>, 3>;
+
+/// Derivative of the principal stresses after a return by those of the trial stress.
+PrincipalMatrix principal_tangent(const MohrCoulombSurface<double> &surface, const Sector sector)
 {
   PrincipalMatrix p{};
-  const double s = sin_dilation_, f = sin_friction_;
-  // As in return_to_surface(): stress change per multiplier of the main plane's flow, and the slope of the surface.
-  const double lateral = (2 * bulk_ - 4 * shear_ / 3) * s;
-  const double major = 2 * shear_ * (1 + s) + lateral, minor = 2 * shear_ * (s - 1) + lateral;
-  const double tensile_over_compressive = (1 - f) / (1 + f);
+  const double f = surface.friction;
   switch (sector)
   {
   case Sector::elastic:
@@ -22,27 +25,30 @@ MohrCoulomb::PrincipalMatrix MohrCoulomb::principal_tangent(const Sector sector)
     break;
   case Sector::main_plane:
   {
-    const double flow[3] = {major, lateral, minor}, normal[3] = {1 + f, 0, f - 1};
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l)
-        p[k][l] = (k == l) - flow[k] * normal[l] / plane_;
+    const double normal[3] = {1 + f, 0, f - 1};
+    for (int l = 0; l < 3; ++l)
+    {
+      p[1][l] = (l == 1) - surface.plane_middle * normal[l];
+      p[2][l] = (l == 2) - surface.plane_minor * normal[l];
+      p[0][l] = surface.tensile_slope * p[2][l];
+    }
     break;
   }
   case Sector::right_edge:
   {
-    const double push = 0.5 * (lateral + minor) / (plane_ + right_);
+    const double push = surface.right_minor;
     p[2] = {-push * 2 * (1 + f), 0.5 + push * (1 - f), 0.5 + push * (1 - f)};
     p[1] = p[2];
     for (int l = 0; l < 3; ++l)
-      p[0][l] = tensile_over_compressive * p[2][l];
+      p[0][l] = surface.tensile_slope * p[2][l];
     break;
   }
   case Sector::left_edge:
   {
-    const double push = minor / (plane_ + left_);
+    const double push = surface.left_minor;
     p[2] = {-push * (1 + f), -push * (1 + f), 1 + push * 2 * (1 - f)};
     for (int l = 0; l < 3; ++l)
-      p[0][l] = p[1][l] = tensile_over_compressive * p[2][l];
+      p[0][l] = p[1][l] = surface.tensile_slope * p[2][l];
     break;
   }
   case Sector::apex:
@@ -51,7 +57,9 @@ MohrCoulomb::PrincipalMatrix MohrCoulomb::principal_tangent(const Sector sector)
   return p;
 }
 
-Moduli MohrCoulomb::tangent(const Stress &stress_old, const Strain &strain_increment) const
+} // namespace
+
+Moduli MohrCoulomb::tangent(const Stress &stress_old, const Strain &strain_increment, const double plastic_strain) const
 {
   const double stiffness = depends_on_pressure() ? stiffness_factor(mean_stress(stress_old)) : 1;
   const double shear = stiffness * shear_, lame = stiffness * lame_;
@@ -59,13 +67,13 @@ Moduli MohrCoulomb::tangent(const Stress &stress_old, const Strain &strain_incre
   for (int i = 0; i < 6; ++i)
     trial[i] = stress_old[i] + stiffness * trial[i];
   const PrincipalFrame<double> frame = principal_frame(trial);
-  const StressUpdate update = return_to_surface(stress_old, trial, frame, stiffness);
+  const StressUpdate update = return_to_surface(stress_old, trial, frame, stiffness, plastic_strain);
   if (update.sector == Sector::elastic)
     return isotropic_moduli(lame, shear);
 
   // de Souza Neto, Perić, Owen (2008), app. A: the return changes the principal values alone; the frame turns with the
   // trial stress, and shears between two principal directions are scaled by the ratio of the stress differences.
-  const PrincipalMatrix p = principal_tangent(update.sector);
+  const PrincipalMatrix p = principal_tangent(surface(plastic_strain), update.sector);
   double value[3]; // of the new stress
   double dyad[3][6], mixed[3][6];
   const int component[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};

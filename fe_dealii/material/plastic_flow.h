@@ -19,13 +19,14 @@ struct PlasticFlow
 
 /// MohrCoulomb::return_to_surface() without branches and eigenvectors, for a pack of points in one go.
 /// @param softness inverse of the factor of the moduli in this increment; the new stress is the same for any
+/// @param plastic_strain κ before the increment [-]
 /// The new stress lies on the surface to rounding of the trial stress. A NaN stays in the stress, where it is seen.
 template <class Real>
 PlasticFlow<Real> plastic_flow(const MohrCoulomb &law, const Real (&stress_old)[6], const Real (&stress_trial)[6],
-                               const Real &softness)
+                               const Real &softness, const Real &plastic_strain = Real(0.))
 {
   const PrincipalDyads<Real> trial = principal_dyads(stress_trial);
-  const PrincipalReturn<Real> returned = law.return_principal(trial.value);
+  const PrincipalReturn<Real> returned = law.return_principal(trial.value, plastic_strain);
   PlasticFlow<Real> flow;
   flow.flows = returned.yields;
   flow.sector = returned.sector;
