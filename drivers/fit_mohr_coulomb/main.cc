@@ -35,8 +35,14 @@ int job(const CommandLine &command_line)
                                   "sand.json", "sand.prm", "curves_laws.csv"});
   const Ensemble ensemble = read_ensemble(parameters.ensemble, parameters.choice);
   warn(ensemble.warnings);
-  const EnsembleFit fit = fit_ensemble(ensemble.samples, parameters);
+  EnsembleFit fit = fit_ensemble(ensemble.samples, parameters);
   warn(fit.warnings);
+  std::optional<HardeningFit> hardening;
+  if (parameters.hardening_is_wanted)
+  {
+    hardening = fit_hardening(tests_of_laws(ensemble, parameters), fit.continuum);
+    fit.continuum = hardening->continuum;
+  }
   const CurveTables curves = curve_tables(ensemble, fit);
   std::optional<LawComparison> laws;
   if (parameters.sand.is_wanted)
@@ -59,6 +65,8 @@ int job(const CommandLine &command_line)
   Summary summary;
   summary.set("wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), "s");
   add_figures(summary, fit);
+  if (hardening)
+    add_figures(summary, *hardening);
   if (laws)
     add_figures(summary, *laws);
   std::vector<PlotJob> plots{{"fit_mohr_coulomb/plot.py", {folder.path().string()}},

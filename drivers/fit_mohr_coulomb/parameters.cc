@@ -49,6 +49,11 @@ void FitParameters::declare(ParameterFile &file)
   file.add("Grains", "density", grain_density,
            "of the mineral; times the initial solid fraction it is the continuum's density [kg/m3]", Range::positive());
 
+  file.add(
+      "Hardening", "fit", hardening_is_wanted,
+      "fit a continuum whose friction is mobilised by plastic strain to whole curves, from what the sections above "
+      "tell");
+
   file.add("Sand", "fit", sand.is_wanted,
            "fit hypoplastic sand, too, to all densities and pressures together, which must be several");
   file.add("Sand", "loosest over critical", sand.loosest_over_critical,

@@ -48,8 +48,9 @@ struct FitParameters
   StiffnessLaw stiffness_law = StiffnessLaw::constant;
   double reference_pressure = 100e3; ///< p_r of the power law [Pa]
   CohesionSource cohesion_source = CohesionSource::given;
-  double cohesion = 15;         ///< [Pa], where it is given
-  double grain_density = 2650.; ///< [kg/m3]
+  double cohesion = 15;             ///< [Pa], where it is given
+  double grain_density = 2650.;     ///< [kg/m3]
+  bool hardening_is_wanted = false; ///< whether the continuum's friction hardens, see fit_hardening()
   SandFitParameters sand;
 
   /// Binds every parameter to its name in the parameter file.

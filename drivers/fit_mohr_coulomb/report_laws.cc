@@ -22,10 +22,15 @@ nlohmann::ordered_json json_of(const Misfit &misfit)
 
 } // namespace
 
+std::vector<SandTest> tests_of_laws(const Ensemble &ensemble, const FitParameters &parameters)
+{
+  return sand_tests(ensemble.samples, n_points, parameters.sand.compression_from);
+}
+
 LawComparison compare_laws(const Ensemble &ensemble, const EnsembleFit &fit, const FitParameters &parameters)
 {
   LawComparison laws;
-  laws.tests = sand_tests(ensemble.samples, n_points, parameters.sand.compression_from);
+  laws.tests = tests_of_laws(ensemble, parameters);
   laws.sand = fit_sand(laws.tests, parameters.sand);
   const fe::MohrCoulomb material(fit.continuum);
   for (const SandTest &test : laws.tests)
@@ -85,6 +90,20 @@ std::string laws_json(const LawComparison &laws)
                     {"stiffness_exponent", p.stiffness_exponent}};
   object["n_tests"] = laws.tests.size();
   return object.dump(2) + "\n";
+}
+
+void add_figures(Summary &summary, const HardeningFit &fit)
+{
+  const fe::MohrCoulombParameters &p = fit.continuum;
+  summary.set("misfit_hardening", fit.misfit.all);
+  summary.set("misfit_hardening_stress_ratio", fit.misfit.stress_ratio);
+  summary.set("misfit_hardening_volumetric_strain", fit.misfit.volumetric_strain);
+  summary.set("hardening_young_modulus_Pa", p.young_modulus, "Pa");
+  summary.set("hardening_stiffness_exponent", p.stiffness_exponent);
+  summary.set("hardening_poisson_ratio", p.poisson_ratio);
+  summary.set("hardening_friction_angle_deg", p.friction_angle, "°");
+  summary.set("hardening_dilation_angle_deg", p.dilation_angle, "°");
+  summary.set("hardening_strain", p.hardening_strain);
 }
 
 void add_figures(Summary &summary, const LawComparison &laws)

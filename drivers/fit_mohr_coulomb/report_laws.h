@@ -2,6 +2,7 @@
 
 #include "drivers/common/summary.h"
 #include "drivers/fit_mohr_coulomb/ensemble_fit.h"
+#include "drivers/fit_mohr_coulomb/hardening_fit.h"
 #include "drivers/fit_mohr_coulomb/sand_fit.h"
 
 #include <string>
@@ -19,6 +20,9 @@ struct LawComparison
   Misfit mohr_coulomb_misfit;
 };
 
+/// The tests that whole laws are fitted to.
+std::vector<SandTest> tests_of_laws(const Ensemble &ensemble, const FitParameters &parameters);
+
 /// Fits the law of sand to what the other one was fitted to. Throws ConfigError, see fit_sand().
 LawComparison compare_laws(const Ensemble &ensemble, const EnsembleFit &fit, const FitParameters &parameters);
 
@@ -30,6 +34,9 @@ std::string law_table(const LawComparison &laws);
 
 /// Text of sand.json: parameters and the misfit of each law.
 std::string laws_json(const LawComparison &laws);
+
+/// Adds the misfit and the parameters of the continuum.
+void add_figures(Summary &summary, const HardeningFit &fit);
 
 /// Adds the misfits and the parameters of the sand.
 void add_figures(Summary &summary, const LawComparison &laws);

@@ -2,11 +2,9 @@
 
 #include "dem/core/error.h"
 #include "drivers/common/number_text.h"
+#include "drivers/fit_mohr_coulomb/least_misfit.h"
 #include "drivers/fit_mohr_coulomb/void_ratio.h"
 #include "fe_dealii/material/hypoplastic.h"
-
-#include <unsupported/Eigen/NonLinearOptimization>
-#include <unsupported/Eigen/NumericalDiff>
 
 #include <algorithm>
 #include <cmath>
@@ -20,19 +18,6 @@ namespace
 {
 
 using Vector = Eigen::VectorXd;
-
-/// An unknown between bounds, as a number without: its logarithm goes from one to the other by a logistic curve.
-struct Bounded
-{
-  double least, most;
-
-  double number(const double value) const
-  {
-    const double share = std::clamp(std::log(value / least) / std::log(most / least), 1e-3, 1 - 1e-3);
-    return std::log(share / (1 - share));
-  }
-  double value(const double number) const { return least * std::pow(most / least, 1 / (1 + std::exp(-number))); }
-};
 
 // What sands have, and more; grains of a simulation may be far stiffer than quartz packings.
 constexpr Bounded angle{10, 60};       // φ_c [degrees]
@@ -78,54 +63,6 @@ std::vector<LawCurves> curves_of_all(const fe::HypoplasticSand &sand, const std:
   return curves;
 }
 
-/// What MINPACK asks: the differences at some unknowns.
-struct Differences
-{
-  using Scalar = double;
-  using InputType = Vector;
-  using ValueType = Vector;
-  using JacobianType = Eigen::MatrixXd;
-  enum
-  {
-    InputsAtCompileTime = Eigen::Dynamic,
-    ValuesAtCompileTime = Eigen::Dynamic
-  };
-
-  const std::vector<SandTest> &tests;
-  const SandFitParameters &given;
-  double initial_void_ratio;
-  int n_inputs, n_values;
-
-  int inputs() const { return n_inputs; }
-  int values() const { return n_values; }
-
-  /// Where no sand has these parameters, or one has no such path, everything is far off: the step is taken back.
-  int operator()(const Vector &x, Vector &difference) const
-  {
-    difference.setConstant(n_values, 10);
-    try
-    {
-      const fe::HypoplasticSand sand(sand_of(x, given, initial_void_ratio));
-      const std::vector<double> found = differences(tests, curves_of_all(sand, tests));
-      if (std::all_of(found.begin(), found.end(), [](const double d) { return std::isfinite(d); }))
-        std::copy(found.begin(), found.end(), difference.data());
-    }
-    catch (const ConfigError &)
-    {
-    }
-    catch (const RunError &)
-    {
-    }
-    return 0;
-  }
-  double size(const Vector &x) const
-  {
-    Vector difference;
-    (*this)(x, difference);
-    return difference.norm();
-  }
-};
-
 /// From the ends of the shears, which all go to the same critical state.
 fe::HypoplasticParameters first_guess(const std::vector<SandTest> &tests, const SandFitParameters &given)
 {
@@ -169,16 +106,11 @@ SandFit fit_sand(const std::vector<SandTest> &tests, const SandFitParameters &gi
 {
   require_variety(tests);
   double initial = 0;
-  std::size_t n_values = 0;
   for (const SandTest &test : tests)
-  {
     initial += void_ratio_of(test.initial_solid_fraction()) / static_cast<double>(tests.size());
-    n_values += 2 * test.shear.size() + test.compression.size();
-  }
+  const auto curves_at = [&](const Vector &x)
+  { return curves_of_all(fe::HypoplasticSand(sand_of(x, given, initial)), tests); };
   fe::HypoplasticParameters guess = first_guess(tests, given);
-  const int n_unknowns = static_cast<int>(unknowns_of(guess, given).size());
-  const Differences function{tests, given, initial, n_unknowns, static_cast<int>(n_values)};
-
   std::vector<std::pair<double, Vector>> starts;
   for (const double h_s : {1e8, 1e9, 1e10, 1e11, 1e12})
     for (const double n : {0.25, 0.4, 0.6})
@@ -186,7 +118,7 @@ SandFit fit_sand(const std::vector<SandTest> &tests, const SandFitParameters &gi
       guess.granulate_hardness = h_s;
       guess.compression_exponent = n;
       const Vector x = unknowns_of(guess, given);
-      starts.emplace_back(function.size(x), x);
+      starts.emplace_back(misfit_at(tests, curves_at, x), x);
     }
   std::stable_sort(starts.begin(), starts.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
 
@@ -195,14 +127,8 @@ SandFit fit_sand(const std::vector<SandTest> &tests, const SandFitParameters &gi
   double least = starts.front().first;
   for (int k = 0; k < n_tried; ++k)
   {
-    Vector x = starts[k].second;
-    // Differences over 1e-4 of an unknown: the paths are true to 1e-8.
-    Eigen::NumericalDiff<Differences> with_slopes(function, 1e-8);
-    Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Differences>> method(with_slopes);
-    method.parameters.maxfev = 400;
-    method.parameters.xtol = method.parameters.ftol = 1e-8;
-    method.minimize(x);
-    if (const double size = function.size(x); size < least)
+    const Vector x = least_misfit(tests, curves_at, starts[k].second);
+    if (const double size = misfit_at(tests, curves_at, x); size < least)
     {
       least = size;
       best = x;
@@ -210,7 +136,7 @@ SandFit fit_sand(const std::vector<SandTest> &tests, const SandFitParameters &gi
   }
   SandFit fit;
   fit.sand = sand_of(best, given, initial);
-  fit.curves = curves_of_all(fe::HypoplasticSand(fit.sand), tests);
+  fit.curves = curves_at(best);
   fit.misfit = misfit(tests, fit.curves);
   return fit;
 }

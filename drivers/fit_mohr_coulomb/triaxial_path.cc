@@ -56,6 +56,15 @@ Step hold_pressure(const fe::MohrCoulomb &material, const Point &point, const do
                  " Pa on the continuum; check the fitted parameters");
 }
 
+/// The steps of a strain, where friction hardens: within each it stays that of its start.
+int n_steps(const fe::MohrCoulomb &material, const double axial)
+{
+  constexpr double share = 0.02; // of the strain that mobilises half
+  return material.hardens()
+             ? static_cast<int>(std::ceil(std::abs(axial) / (share * material.parameters().hardening_strain)))
+             : 1;
+}
+
 } // namespace
 
 TriaxialCurve drive_triaxial(const fe::MohrCoulomb &material, const TriaxialStart &start,
@@ -67,10 +76,14 @@ TriaxialCurve drive_triaxial(const fe::MohrCoulomb &material, const TriaxialStar
   TriaxialCurve curve;
   for (const double next_axial : axial_strains)
   {
-    const Step step = hold_pressure(material, point, next_axial - axial, p);
-    point = step.point;
+    const int n = n_steps(material, next_axial - axial);
+    for (int k = 0; k < n; ++k)
+    {
+      const Step step = hold_pressure(material, point, (next_axial - axial) / n, p);
+      point = step.point;
+      lateral += step.lateral_strain;
+    }
     axial = next_axial;
-    lateral += step.lateral_strain;
     const double volumetric = axial + 2 * lateral;
     curve.axial_strain.push_back(axial);
     curve.volumetric_strain.push_back(volumetric);

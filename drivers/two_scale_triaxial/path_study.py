@@ -8,8 +8,8 @@ sixth powers: nearly the least largest error). Then the continuum alone and the 
 the same paths. The error of a principal stress is its largest difference from grains alone over the path, over
 the largest stress of grains alone: that of the continuum alone is the law's.
 
-Writes FOLDER/paths.csv, FOLDER/continuum-SEED.json and FOLDER/plots/paths.png, and prints the table. Runs that are finished
-are not run again. Further settings NAME=VALUE of the driver hold for all runs.
+Writes FOLDER/paths.csv, FOLDER/continuum-SEED.json and FOLDER/plots/paths.png, and prints the table. Runs that are
+finished are not run again. Further settings NAME=VALUE of the driver hold for all runs.
 """
 
 import concurrent.futures
@@ -18,6 +18,7 @@ import json
 import statistics
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -37,6 +38,13 @@ UNKNOWNS = [("Continuum/Young's modulus", 8e8, 5e7, 5e9), ("Continuum/stiffness 
             ("Continuum/dilation angle", -1, -15, 5), ("Continuum/hardening strain", 1e-3, 1e-5, 0.1)]
 
 
+class Common(NamedTuple):
+    """What holds for all runs."""
+
+    settings: dict
+    jobs: int  # at a time
+
+
 def settings_of(scaled):
     """Of the driver, from unknowns that run from 0 to 1 between their bounds."""
     settings = {"Continuum/reference pressure": 1e6}
@@ -49,8 +57,8 @@ def spans_decades(low, high):
     return low > 0 and high > 50 * low
 
 
-def fit(program, common, alone):
-    """The continuum that is nearest to histories of grains alone, by path."""
+def fit(program, common, alone, pool):
+    """The continuum that is nearest to histories of grains alone, by path. @param pool of threads, for the paths"""
     largest = {path: max(abs(h[name]).max() for name in STRESSES) for path, h in alone.items()}
 
     def residual(scaled):
@@ -58,47 +66,61 @@ def fit(program, common, alone):
         settings = {**common, **settings_of(scaled), "Model/kind": "continuum", "Model/elements per edge": 2,
                     "Loading/time step": 1e-6}
         with tempfile.TemporaryDirectory() as folder:
-            found = []
-            for path, history in alone.items():
-                target = Path(folder) / path.replace(" ", "-")
+
+            def difference(path):
+                history, target = alone[path], Path(folder) / path.replace(" ", "-")
                 if not run(program, target, {**settings, **PATHS[path]}):
-                    return np.full(sum(3 * len(h["time_s"]) for h in alone.values()), 1.)
+                    return np.full(3 * len(history["time_s"]), 1.)
                 mine = run_data.read_history(target)
-                at = lambda name: np.interp(history["time_s"], mine["time_s"], mine[name])  # another step, other samples
-                found += [(at(name) - history[name]) / largest[path] for name in STRESSES]
-            return np.concatenate(found)
+                at = lambda name: np.interp(history["time_s"], mine["time_s"], mine[name])  # it has other samples
+                return np.concatenate([(at(name) - history[name]) / largest[path] for name in STRESSES])
+
+            return np.concatenate(list(pool.map(difference, alone)))
 
     start = [np.log(start / low) / np.log(high / low) if spans_decades(low, high) else (start - low) / (high - low)
              for _, start, low, high in UNKNOWNS]
     options = {"bounds": (0, 1), "xtol": 1e-3, "ftol": 1e-3, "max_nfev": 15}
-    nearest = least_squares(residual, start, diff_step=0.02, **options).x
-    return settings_of(least_squares(lambda x: residual(x)**3, np.clip(nearest, 0.01, 0.99), diff_step=0.01, **options).x)
+    nearest = np.clip(least_squares(residual, start, diff_step=0.02, **options).x, 0.01, 0.99)
+    return settings_of(least_squares(lambda x: residual(x)**3, nearest, diff_step=0.01, **options).x)
+
+
+def folder_of(folder, model, path, seed):
+    return folder / f"{model}-{path}-{seed}".replace(" ", "-")
 
 
 def first_stage(history):
     return {name: values[history["stage"] == 1] for name, values in history.items()}
 
 
+def fit_all(program, folder, seeds, paths, common):
+    """The continuum of each packing, by seed; fits that are there are not made again."""
+    with concurrent.futures.ThreadPoolExecutor(len(seeds)) as fits, \
+            concurrent.futures.ThreadPoolExecutor(common.jobs) as pool:
+
+        def fitted(seed):
+            kept = folder / f"continuum-{seed}.json"
+            if not kept.exists():
+                alone = {path: run_data.read_history(folder_of(folder, "grains alone", path, seed)) for path in paths}
+                kept.write_text(json.dumps(fit(program, common.settings, alone, pool), indent=1) + "\n")
+            return json.loads(kept.read_text())
+
+        return dict(zip(seeds, fits.map(fitted, seeds)))
+
+
 def measure(program, folder, seeds, choice, common):
     """Errors by model and path of a choice of both, one a packing; and those between packings of grains alone."""
     rows, (models, paths) = {}, choice
-    folder_of = lambda model, path, seed: folder / f"{model}-{path}-{seed}".replace(" ", "-")
-    read = lambda model, path, seed: run_data.read_history(folder_of(model, path, seed))
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+    read = lambda model, path, seed: run_data.read_history(folder_of(folder, model, path, seed))
+    with concurrent.futures.ThreadPoolExecutor(common.jobs) as pool:
         jobs = [(seed, path) for seed in seeds for path in paths]
-        list(pool.map(lambda job: run(program, folder_of("grains alone", job[1], job[0]),
-                                      {**common, "Model/kind": "grains", "Packing/seed": job[0], **PATHS[job[1]]}),
-                      jobs))
-        for seed in seeds:
-            kept = folder / f"continuum-{seed}.json"
-            if not kept.exists():
-                alone = {path: read("grains alone", path, seed) for path in paths}
-                kept.write_text(json.dumps(fit(program, common, alone), indent=1) + "\n")
-        continuum = {seed: json.loads((folder / f"continuum-{seed}.json").read_text()) for seed in seeds}
+        list(pool.map(lambda job: run(program, folder_of(folder, "grains alone", job[1], job[0]),
+                                      {**common.settings, "Model/kind": "grains", "Packing/seed": job[0],
+                                       **PATHS[job[1]]}), jobs))
+        continuum = fit_all(program, folder, seeds, paths, common)
         jobs = [(model, path, seed) for seed in seeds for path in paths for model in models]
-        done = list(pool.map(lambda job: run(program, folder_of(*job),
-                                             {**common, **continuum[job[2]], **MODELS[job[0]], "Packing/seed": job[2],
-                                              **PATHS[job[1]]}), jobs))
+        done = list(pool.map(lambda job: run(program, folder_of(folder, *job),
+                                             {**common.settings, **continuum[job[2]], **MODELS[job[0]],
+                                              "Packing/seed": job[2], **PATHS[job[1]]}), jobs))
     for (model, path, seed), is_done in zip(jobs, done):
         mine, alone = (read(name, path, seed) if is_done else None for name in (model, "grains alone"))
         rows.setdefault((model, path), []).append(errors(mine, alone, False) if is_done else None)
@@ -134,7 +156,7 @@ def draw(folder, seed, choice):
         for model, style in [("grains alone", "-"), *zip(MODELS, (":", "--", "-."))]:
             if model not in ["grains alone", *models]:
                 continue
-            history = run_data.read_history(folder / f"{model}-{path}-{seed}".replace(" ", "-"))
+            history = run_data.read_history(folder_of(folder, model, path, seed))
             for k, name in enumerate(STRESSES):
                 axes.plot(1e3 * history["time_s"], 1e-6 * history[name], style, color=run_data.COLOURS[k],
                           label=f"σ{k + 1}, {model}")
@@ -150,11 +172,12 @@ def main():
     parser.add_argument("--paths", nargs="+", choices=PATHS, default=list(PATHS),
                         help="these alone; the continuum is fitted to them")
     parser.add_argument("--models", nargs="+", choices=MODELS, default=list(MODELS), help="these alone, beside grains")
+    parser.add_argument("--jobs", type=int, default=2, help="runs at a time, each on one core (default 2)")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="of the driver, for all runs")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     folder, seeds = arguments.folder.resolve(), range(1, arguments.seeds + 1)
-    common = dict(text.split("=", 1) for text in getattr(arguments, "set"))
+    common = Common(dict(text.split("=", 1) for text in getattr(arguments, "set")), arguments.jobs)
     choice = arguments.models, arguments.paths
     rows = measure(arguments.program.resolve(), folder, seeds, choice, common)
     write_table(rows, folder / "paths.csv")

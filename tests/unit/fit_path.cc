@@ -99,3 +99,31 @@ TEST_CASE("moduli in proportion to the pressure: the deviator grows as 3 p (exp(
   CHECK(error[0] < 1e-3);
   CHECK(error[1] == Approx(error[0] / 2).epsilon(0.02)); // of first order: the stiffness of a step is that at its start
 }
+
+TEST_CASE("a friction that plastic strain mobilises follows the integral of its flow")
+{
+  // Under triaxial compression a unit of flow is 1 − s along the axis and counts 1 − s/3 as plastic strain.
+  const fe::MohrCoulombParameters p{.young_modulus = 2e8,
+                                    .poisson_ratio = 0.1,
+                                    .friction_angle = 32,
+                                    .dilation_angle = 6,
+                                    .cohesion = 0,
+                                    .hardening_strain = 2e-3};
+  const fe::MohrCoulomb material(p);
+  const double pressure = 1e5, end = 0.01;
+  std::vector<double> strains;
+  const int n_steps = 4000;
+  for (int step = 1; step <= n_steps; ++step)
+    strains.push_back(-end * step / n_steps);
+  const TriaxialCurve curve = drive_triaxial(material, {pressure, 0.6}, strains);
+  const double plastic = end - (-curve.axial_stress.back() - pressure) / p.young_modulus;
+  double flowed = 0, strain = 0;
+  for (const double step = 1e-7; flowed < plastic; strain += step)
+  {
+    const double s = material.sine_of_dilation(material.sine_of_friction(strain));
+    flowed += step * (1 - s) / (1 - s / 3);
+  }
+  const double friction = material.sine_of_friction(strain);
+  CHECK(-curve.axial_stress.back() / pressure == Approx((1 + friction) / (1 - friction)).epsilon(1e-3));
+  CHECK(friction < 0.9 * std::sin(p.friction_angle * std::numbers::pi / 180));
+}

@@ -1,4 +1,5 @@
 #include "dem/core/error.h"
+#include "drivers/fit_mohr_coulomb/hardening_fit.h"
 #include "drivers/fit_mohr_coulomb/sand_fit.h"
 #include "drivers/fit_mohr_coulomb/sand_path.h"
 #include "fe_dealii/material/hypoplastic.h"
@@ -168,4 +169,45 @@ TEST_CASE("fit of sand: tests of one density or one pressure are refused", "[fit
   samples.resize(3);
   CHECK_THROWS_WITH(fit_sand(sand_tests(samples, 11, 0.1), {.is_wanted = true}),
                     Contains("Ensemble/generation frictions"));
+}
+
+TEST_CASE("fit of a friction that hardens: the parameters that made the tests come back", "[fit]")
+{
+  const fe::MohrCoulombParameters p{.young_modulus = 3e8,
+                                    .poisson_ratio = 0.12,
+                                    .friction_angle = 33,
+                                    .dilation_angle = 4,
+                                    .cohesion = 15,
+                                    .density = 1700,
+                                    .reference_pressure = 1e5,
+                                    .stiffness_exponent = 0.35,
+                                    .hardening_strain = 1.5e-3};
+  const fe::MohrCoulomb law(p);
+  std::vector<double> strains;
+  for (int i = 0; i <= 100; ++i)
+    strains.push_back(-0.1 * i * i / 1e4);
+  std::vector<Sample> samples;
+  for (const double pressure : {5e4, 2e5})
+    samples.push_back({static_cast<int>(samples.size()) + 1,
+                       0.01,
+                       0.1,
+                       pressure,
+                       1700,
+                       drive_triaxial(law, {pressure, 0.62}, strains),
+                       {}});
+  fe::MohrCoulombParameters start = p; // what secants and ends of such curves would tell
+  start.young_modulus = 1e8;
+  start.poisson_ratio = 0.3;
+  start.friction_angle = 31;
+  start.dilation_angle = 0;
+  start.stiffness_exponent = 0.5;
+  start.hardening_strain = 0;
+  const HardeningFit fit = fit_hardening(sand_tests(samples, 41, 0.1), start);
+  CHECK(fit.misfit.all < 3e-3); // rows of the tests are interpolated
+  CHECK(share_off(fit.continuum.young_modulus, p.young_modulus) < 0.03);
+  CHECK(share_off(fit.continuum.stiffness_exponent, p.stiffness_exponent) < 0.05);
+  CHECK(std::abs(fit.continuum.poisson_ratio - p.poisson_ratio) < 0.02);
+  CHECK(share_off(fit.continuum.friction_angle, p.friction_angle) < 5e-3);
+  CHECK(std::abs(fit.continuum.dilation_angle - p.dilation_angle) < 0.1);
+  CHECK(share_off(fit.continuum.hardening_strain, p.hardening_strain) < 0.03);
 }
