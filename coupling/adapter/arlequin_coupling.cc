@@ -75,6 +75,7 @@ void ArlequinCoupling::apply()
     start();
   balance_edge(fresh_);
   fresh_.clear();
+  limit_edge();
   has_just_moved_ = false;
   const std::span<double> fe_force = body_.solid().external_force();
   for (std::size_t dof = 0; dof < fe_force.size(); ++dof)
@@ -257,6 +258,16 @@ void ArlequinCoupling::balance_edge(const std::span<const std::size_t> held)
     edge.dead_load[k] =
         -(p.force[i] + transfer_.force[coupled] + p.weight[i] * p.mass[i] * grains.parameters().gravity);
   }
+}
+
+/// Strengths of the held grains' springs, of their transfer at this step.
+void ArlequinCoupling::limit_edge()
+{
+  if (parameters_.edge.strength == 0.)
+    return;
+  HeldEdge &edge = penalty_.edge();
+  for (std::size_t k = 0; k < edge.size(); ++k)
+    edge.strength[k] = parameters_.edge.strength * transfer_.force[edge.particles()[k]].norm();
 }
 
 /// Of a transfer along the step that led here [W].

@@ -75,6 +75,9 @@ public:
   /// Work on both models of what the gradient of the weights transfers, since the start until the last apply() [J].
   double transfer_work() const { return transfer_work_; }
 
+  /// What slips of the held edge have taken from both models until the last apply() [J].
+  double slip_loss() const { return penalty_.edge().slip_loss(); }
+
   /// Makes the overlap anew, as follow() does when it is due; between follow() and apply().
   void renew();
 
@@ -127,6 +130,7 @@ private:
   void compute_penalty(const AddForce &add_force, std::span<double> fe_force);
   void give_transfer();
   void balance_edge(std::span<const std::size_t> held);
+  void limit_edge();
   bool has_just_come() const { return has_started_ == 0 || has_just_moved_; }
   double power_of(const Transfer &transfer) const;
   double power_on_nodes(const Transfer &transfer) const;

@@ -34,7 +34,10 @@ ModelEnergy energy_of(const TwoScaleModel &model)
   }
   e.coupling = model.penalty_state().energy;
   if (model.overlap())
+  {
     e.transfer_work = model.overlap()->transfer_work();
+    e.slip_loss = model.overlap()->slip_loss();
+  }
   return e;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <unordered_map>
 
@@ -17,6 +18,9 @@ void EdgeParameters::validate() const
   if (!(stiffness > 0.) || !std::isfinite(stiffness))
     reject("the stiffness of the held edge of an overlap is ", stiffness,
            " Pa/m^2; it must be positive, about that of a grain's contacts over its volume");
+  if (!(strength >= 0.) || !std::isfinite(strength))
+    reject("the strength of the held edge of an overlap is ", strength,
+           "; it must be 0, for springs that hold any force, or positive: about 1 lets grains slide as neighbours do");
 }
 
 HeldEdge::HeldEdge(const Overlap &overlap, const std::span<const double> node_weight,
@@ -46,6 +50,7 @@ HeldEdge::HeldEdge(const Overlap &overlap, const std::span<const double> node_we
   }
   dead_load.assign(size(), Eigen::Vector3d::Zero());
   shift_.assign(size(), Eigen::Vector3d::Zero());
+  strength.assign(size(), std::numeric_limits<double>::infinity());
 }
 
 double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_displacement,
@@ -68,7 +73,10 @@ double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_disp
       const ElementBlocks::Products at(place_[k]);
       Eigen::Vector3d difference = particle_displacement[k] - unpadded(at.value_of(field));
       if (loads == Loads::all)
+      {
         difference += shift_[k];
+        slip(k, difference);
+      }
       Eigen::Vector3d force = -stiffness_[k] * difference;
       energy_[k] = 0.5 * stiffness_[k] * difference.squaredNorm();
       if (loads == Loads::all)
@@ -85,6 +93,19 @@ double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_disp
       Eigen::Map<Eigen::Vector3d>(fe_force.data() + 3 * nodes[n]) -= unpadded(at_nodes[n]);
   }
   return sum;
+}
+
+/// Lets a spring slip that is stretched beyond its strength: it keeps the direction. Over the slip of one step the
+/// force is that of its end, so the loss is of first order in the step.
+void HeldEdge::slip(const std::size_t k, Eigen::Vector3d &stretch)
+{
+  const double pull = stiffness_[k] * stretch.norm();
+  if (!(pull > strength[k]))
+    return;
+  const Eigen::Vector3d slipped = (1. - strength[k] / pull) * stretch;
+  stretch -= slipped;
+  shift_[k] -= slipped;
+  slip_loss_ += (stiffness_[k] * stretch - dead_load[k]).dot(slipped);
 }
 
 /// Of particles in the same element that follow one another.
@@ -138,6 +159,7 @@ double HeldEdge::become(HeldEdge other, std::vector<std::size_t> &fresh)
     }
     else
       fresh.push_back(k);
+  other.slip_loss_ = slip_loss_;
   *this = std::move(other);
   return let_go;
 }
@@ -150,6 +172,7 @@ void HeldEdge::copy(const std::size_t from, const HeldEdge &other, const std::si
   stiffness_[to] = other.stiffness_[from];
   shift_[to] = other.shift_[from];
   dead_load[to] = other.dead_load[from];
+  strength[to] = other.strength[from];
   place_[to] = other.place_[from];
   energy_[to] = other.energy_[from];
   std::copy_n(other.node_.begin() + n_nodes * from, n_nodes, node_.begin() + n_nodes * to);
@@ -166,6 +189,7 @@ void HeldEdge::remove(const std::vector<bool> &is_gone)
   stiffness_.resize(kept);
   shift_.resize(kept);
   dead_load.resize(kept);
+  strength.resize(kept);
   place_.resize(kept);
   energy_.resize(kept);
   node_.resize(n_nodes * kept);

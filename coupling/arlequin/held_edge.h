@@ -15,6 +15,7 @@ struct EdgeParameters
 {
   double depth = 1.5;      ///< of the edge, in mean diameters of the coupled grains (spheres of their volumes); 0: none
   double stiffness = 1e16; ///< per volume of grains [Pa/m^2], > 0
+  double strength = 0.6;   ///< of the springs, over what the gradient of the weights takes from the grain; 0: any force
 
   /// Throws ConfigError.
   void validate() const;
@@ -24,7 +25,7 @@ struct EdgeParameters
 /// coarse projection says of them is a mean over an element, about which they would loosen, and the grains above them.
 /// So each of them is held by itself where the continuum is: a spring w V k (u_alpha - N^T u) to it, of the density k
 /// of the stiffness, and a dead load instead of the contacts that are gone, with the opposite on the continuum at the
-/// same point.
+/// same point. Neighbours let a grain slide where it is pulled too far, and so does a spring with a strength.
 ///
 /// The edge are the grains nearer than the depth to where the weights of the nodes vanish, w < depth |grad w|. It stays
 /// tied to the points of the continuum where it was made, whatever becomes of the overlap.
@@ -42,6 +43,12 @@ public:
 
   /// The dead load of a held particle [N], in the order of particles(); zero at first.
   std::vector<Eigen::Vector3d> dead_load;
+
+  /// Largest force of a spring [N], beyond which it slips, in the order of particles(); infinite at first.
+  std::vector<double> strength;
+
+  /// What slips of the springs have taken from both models so far [J].
+  double slip_loss() const { return slip_loss_; }
 
   enum class Loads
   {
@@ -74,6 +81,7 @@ public:
     visit("place", self.place_);
     visit("shift", self.shift_);
     visit("dead_load", self.dead_load);
+    visit("slip_loss", self.slip_loss_);
   }
 
 private:
@@ -81,6 +89,7 @@ private:
 
   std::size_t end_of_element(std::size_t k) const;
   void remove(const std::vector<bool> &is_gone);
+  void slip(std::size_t k, Eigen::Vector3d &stretch);
   void copy(std::size_t from, const HeldEdge &other, std::size_t to);
 
   std::vector<std::int64_t> id_;
@@ -90,6 +99,7 @@ private:
   std::vector<Eigen::Vector3d> place_; // in their element, in local coordinates
   std::vector<Eigen::Vector3d> shift_; // of the places from which displacements count since the edge was made [m]
   std::vector<double> energy_;         // at the last add_forces() [J]
+  double slip_loss_ = 0.;              // [J]
 };
 
 } // namespace bergamo::coupling

@@ -13,6 +13,10 @@ void declare_coupling(ParameterFile &file, coupling::CouplingParameters &couplin
            Range::between(0, 10));
   file.add("Coupling", "edge stiffness", coupling.edge.stiffness, "of the grains held at the edge, per volume [Pa/m2]",
            Range::positive());
+  file.add("Coupling", "edge strength", coupling.edge.strength,
+           "of the springs that hold them, over what the gradient of the weights takes from the grain: beyond it they "
+           "slip, as neighbours would; 0: never",
+           Range::non_negative());
   file.add("Coupling", "transfer time", coupling.transfer_time,
            "in which the continuum takes over what the gradient of the weights takes from the grains [s]",
            Range::positive());

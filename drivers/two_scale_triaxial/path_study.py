@@ -5,8 +5,10 @@ oedometer, all after an isotropic compression.
 For every packing, grains alone take the paths, and a Mohr-Coulomb continuum whose stiffness grows with the pressure and
 whose friction is mobilised by plastic strain is fitted to their stresses on all of them (least squares, then least
 sixth powers: nearly the least largest error). Then the continuum alone and the two-scale cube with the same grains take
-the same paths. The error of a principal stress is its largest difference from grains alone over the path, over
-the largest stress of grains alone: that of the continuum alone is the law's.
+the same paths. The error of a principal stress is its largest difference from grains alone over the path, over the
+largest stress of grains alone: that of the continuum alone is the law's. The upper grains are a sample of their own, so
+in each packing the two-scale cube differs from the whole one by chance; the error of the mean of the differences over the
+packings is what that leaves.
 
 Writes FOLDER/paths.csv, FOLDER/continuum-SEED.json and FOLDER/plots/paths.png, and prints the table. Runs that are
 finished are not run again. Further settings NAME=VALUE of the driver hold for all runs.
@@ -22,7 +24,7 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
-from study_runs import STRESSES, argument_parser, errors, run, run_data
+from study_runs import STRESSES, argument_parser, differences, run, run_data
 
 PATHS = {"unloading": {"Loading/path": "unloading"}, "constant volume": {"Loading/path": "constant volume"},
          "compression": {"Loading/path": "compression"},
@@ -123,13 +125,13 @@ def measure(program, folder, seeds, choice, common):
                                               "Packing/seed": job[2], **PATHS[job[1]]}), jobs))
     for (model, path, seed), is_done in zip(jobs, done):
         mine, alone = (read(name, path, seed) if is_done else None for name in (model, "grains alone"))
-        rows.setdefault((model, path), []).append(errors(mine, alone, False) if is_done else None)
+        rows.setdefault((model, path), []).append(differences(mine, alone, False) if is_done else None)
         if path == paths[0]:  # all of them begin with it
             rows.setdefault((model, "isotropic compression"), []).append(
-                errors(first_stage(mine), first_stage(alone), False) if is_done else None)
+                differences(first_stage(mine), first_stage(alone), False) if is_done else None)
     for path in paths:  # what another packing of the same grains would give
         first = read("grains alone", path, seeds[0])
-        rows["grains of another packing", path] = [errors(read("grains alone", path, seed), first, False)
+        rows["grains of another packing", path] = [differences(read("grains alone", path, seed), first, False)
                                                    for seed in seeds[1:]]
     return rows
 
@@ -138,14 +140,16 @@ def write_table(rows, path):
     with open(path, "w", newline="") as file:
         table = csv.writer(file)
         table.writerow(["model", "path", "runs", "failed", *(f"error_{k}_percent" for k in (1, 2, 3)),
-                        "largest_error_percent", "scatter_percent"])
+                        "largest_error_percent", "scatter_percent", "error_of_mean_percent"])
         for (model, name), found in rows.items():
             good = [row for row in found if row]
-            worst = [max(row) for row in good]
-            mean = [f"{statistics.mean(column):.2f}" for column in zip(*good)] or ["", "", ""]
+            largest = [[abs(difference).max() for difference in row] for row in good]  # by packing and stress
+            worst = [max(row) for row in largest]
+            mean = [f"{statistics.mean(column):.2f}" for column in zip(*largest)] or ["", "", ""]
             table.writerow([model, name, len(good), len(found) - len(good), *mean,
                             f"{statistics.mean(worst):.2f}" if worst else "",
-                            f"{statistics.stdev(worst):.2f}" if len(worst) > 1 else ""])
+                            f"{statistics.stdev(worst):.2f}" if len(worst) > 1 else "",
+                            f"{np.abs(np.mean(good, axis=0)).max():.2f}" if good else ""])
 
 
 def draw(folder, seed, choice):

@@ -17,15 +17,21 @@ def run(program, folder, settings, files=("two_scale_triaxial.prm",)):
     return studies.run(program, folder, settings, [HERE / file for file in files])
 
 
-def errors(history, reference, from_start):
-    """Largest differences of the three principal stresses over the path, over the largest of the reference [%]; none of
-    a run that has ended early. @param from_start stresses count from their starts"""
+def differences(history, reference, from_start):
+    """Differences of the three principal stresses over the path, over the largest of the reference [%]; none of a run
+    that has ended early. @param from_start stresses count from their starts"""
     times = reference["time_s"]
     if history["time_s"][-1] < 0.999 * times[-1]:
         return None
     values = lambda h: [np.interp(times, h["time_s"], h[name]) - (h[name][0] if from_start else 0) for name in STRESSES]
     largest = max(abs(stress).max() for stress in values(reference))
-    return [100 * abs(a - b).max() / largest for a, b in zip(values(history), values(reference))]
+    return [100 * (a - b) / largest for a, b in zip(values(history), values(reference))]
+
+
+def errors(history, reference, from_start):
+    """Largest of the differences() of each stress."""
+    found = differences(history, reference, from_start)
+    return [abs(difference).max() for difference in found] if found else None
 
 
 def argument_parser(description, over_packings=True):

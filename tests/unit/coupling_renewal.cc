@@ -143,3 +143,55 @@ TEST_CASE("particles that are no more in an overlap have no load and their share
     sum[static_cast<int>(dof % 3)] += after.fe[dof];
   CHECK(sum.norm() < 1e-12 * after.particle[0].norm() * static_cast<double>(rest.n_particles()));
 }
+
+TEST_CASE("held edge: a spring slips at its strength, holds on from there, and books what the slip takes")
+{
+  const Overlap overlap = test::block(2, 20);
+  std::vector<double> node_weight;
+  for (const auto &x : overlap.node_position)
+    node_weight.push_back(std::clamp((x.z() - overlap.node_position[0].z()) / 0.02, 0., 1.));
+  HeldEdge edge(overlap, node_weight, particle_weights(overlap, node_weight), {.depth = 1., .stiffness = 1e15});
+  REQUIRE(edge.size() > 5);
+  edge.dead_load = random_vectors(edge.size(), 1e-2, 4);
+  const std::vector<double> fe(test::n_dofs(overlap), 0.);
+  std::vector<double> unused(fe.size(), 0.);
+  Vectors force(edge.size());
+  // Pulled along a straight line and back: elastic to the strength, then all of the rest slips.
+  const Eigen::Vector3d direction = Eigen::Vector3d(1., -2., 0.5).normalized();
+  const auto energy_at = [&](const double way)
+  {
+    const Vectors displacement(edge.size(), way * direction);
+    return edge.add_forces(displacement, fe, force, unused, HeldEdge::Loads::all);
+  };
+  constexpr double unit = 1e-7; // [m]
+  energy_at(unit);
+  Vectors spring(edge.size()); // at one unit
+  for (std::size_t k = 0; k < edge.size(); ++k)
+  {
+    spring[k] = force[k] - edge.dead_load[k];
+    edge.strength[k] = 2. * spring[k].norm();
+  }
+  energy_at(1.9 * unit);
+  CHECK(edge.slip_loss() == 0.);
+  const int n_steps = 1000;
+  double work = 0., before = energy_at(2. * unit), at_start = before;
+  for (int step = 1; step <= n_steps; ++step)
+  {
+    Vectors earlier = force;
+    before = energy_at((2. + 3. * step / n_steps) * unit);
+    for (std::size_t k = 0; k < edge.size(); ++k)
+      work -= 0.5 * (earlier[k] + force[k]).dot(direction) * 3. * unit / n_steps; // done on the edge
+  }
+  for (std::size_t k = 0; k < edge.size(); ++k)
+    CHECK((force[k] - edge.dead_load[k] - 2. * spring[k]).norm() < 1e-9 * spring[k].norm());
+  CHECK(edge.slip_loss() > 0.);
+  CHECK(before - at_start + edge.slip_loss() == Approx(work).epsilon(1e-9));
+  // Back by one unit: elastic, from where it has slipped to.
+  const double lost = edge.slip_loss();
+  energy_at(4. * unit);
+  for (std::size_t k = 0; k < edge.size(); ++k)
+    CHECK((force[k] - edge.dead_load[k] - spring[k]).norm() < 1e-9 * spring[k].norm());
+  CHECK(edge.slip_loss() == lost);
+  CHECK_THROWS_WITH(HeldEdge(overlap, node_weight, particle_weights(overlap, node_weight), {.strength = -1.}),
+                    Catch::Matchers::Contains("strength") && Catch::Matchers::Contains("-1"));
+}

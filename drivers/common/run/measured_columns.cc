@@ -94,6 +94,7 @@ std::vector<Column> columns_of(const coupling::ModelEnergy &energy)
           {"energy_viscous_loss_J", [&energy] { return energy.viscous_loss; }},
           {"energy_plastic_loss_J", [&energy] { return energy.plastic_loss; }},
           {"energy_stiffness_loss_J", [&energy] { return energy.stiffness_loss; }},
+          {"energy_slip_loss_J", [&energy] { return energy.slip_loss; }},
           {"energy_wall_work_J", [&energy] { return energy.wall_work; }},
           {"energy_gravity_work_J", [&energy] { return energy.gravity_work; }},
           {"energy_transfer_work_J", [&energy] { return energy.transfer_work; }},
