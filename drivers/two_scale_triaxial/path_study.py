@@ -7,8 +7,8 @@ whose friction is mobilised by plastic strain is fitted to their stresses on all
 sixth powers: nearly the least largest error). Then the continuum alone and the two-scale cube with the same grains take
 the same paths. The error of a principal stress is its largest difference from grains alone over the path, over the
 largest stress of grains alone: that of the continuum alone is the law's. The upper grains are a sample of their own, so
-in each packing the two-scale cube differs from the whole one by chance; the error of the mean of the differences over the
-packings is what that leaves.
+in each packing the two-scale cube differs from the whole one by chance; the error of the mean of the differences over
+the packings is what that leaves.
 
 Writes FOLDER/paths.csv, FOLDER/continuum-SEED.json and FOLDER/plots/paths.png, and prints the table. Runs that are
 finished are not run again. Further settings NAME=VALUE of the driver hold for all runs.
