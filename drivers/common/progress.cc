@@ -135,11 +135,22 @@ void Progress::end_stage()
   live_width = 0;
 }
 
+void Progress::note(const std::string &text)
+{
+  if (!options.quiet)
+    write_above(text);
+}
+
 void Progress::warn(const std::string &text)
+{
+  write_above("warning: " + text);
+}
+
+void Progress::write_above(const std::string &line)
 {
   if (live_width > 0)
     write_live("");
-  *options.stream << (live_width > 0 ? "\r" : "") << "warning: " << text << std::endl;
+  *options.stream << (live_width > 0 ? "\r" : "") << line << std::endl;
   live_width = 0;
   if (in_stage && options.is_terminal && !options.quiet)
     show(latest, options.clock());

@@ -67,12 +67,16 @@ public:
   /// Shows the last state and closes the stage's line.
   void end_stage();
 
+  /// A line of its own, above the live one; nothing where all is quiet.
+  void note(const std::string &text);
+
   /// "warning: …" on a line of its own, above the live one; also where all else is quiet.
   void warn(const std::string &text);
 
 private:
   void show(const ProgressState &state, double now);
   void write_live(const std::string &line);
+  void write_above(const std::string &line);
 
   ProgressOptions options;
   std::string stage;

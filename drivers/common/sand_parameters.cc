@@ -3,6 +3,7 @@
 #include "dem/core/error.h"
 #include "dem/motion/stable_step.h"
 #include "drivers/common/grain_parameters.h"
+#include "drivers/common/sand_file.h"
 
 namespace bergamo::driver
 {
@@ -15,6 +16,9 @@ void SandParameters::declare(ParameterFile &file)
   file.add("Sand", "solid fraction", solid_fraction, "of the loose packing",
            {.lowest = 0, .highest = 0.6, .lowest_included = false});
   file.add("Sand", "seed", seed, "of all random numbers");
+  file.add("Sand", "grains file", grains_file,
+           "a packing to settle instead of one that is made: a table (.csv) or a dump of LAMMPS or LIGGGHTS, see "
+           "docs/files.md; places as in the pictures of the driver; empty: none");
   file.add("Sand/Settling", "gravity", settling_gravity, "what the packing settles under [m/s2]", Range::positive());
   file.add("Sand/Settling", "time", settling_time, "[s]", Range::positive());
   file.add("Sand/Settling", "time step", settling_step, "[s]", Range::positive());
@@ -22,10 +26,12 @@ void SandParameters::declare(ParameterFile &file)
            Range::between(0, 10));
 }
 
-void SandParameters::validate(const dem::Material &grain) const
+void SandParameters::validate(const dem::Material &grain, const dem::Box &place) const
 {
   distribution.validate();
   n_settling_steps();
+  if (!grains_file.empty())
+    read_sand(*this, place, grain);
   require_stable({"Sand/Settling/time step", settling_step}, grain);
 }
 

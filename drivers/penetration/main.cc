@@ -74,7 +74,7 @@ bool PenetrationRun::settle()
   if (intrusion)
     return true;
   if (!sand)
-    sand = pack_sand(parameters.sand, parameters.box(), parameters.settling());
+    sand = pack_sand(run.progress(), parameters.sand, parameters.box(), parameters.settling());
   if (!sand || !settle_sand(run, *sand, parameters.sand))
     return false;
   settled = end_settling(*sand, parameters.sand, parameters.penetrating());

@@ -50,7 +50,7 @@ void PenetrationParameters::declare(ParameterFile &file)
 
 void PenetrationParameters::validate() const
 {
-  sand.validate(simulation.grain());
+  sand.validate(simulation.grain(), box());
   sand.require_stable({"Penetration/time step", simulation.time_step}, simulation.grain());
   settling().validate();
   penetrating().validate();

@@ -78,7 +78,7 @@ bool InstallationRun::settle()
   if (installation)
     return true;
   if (!sand)
-    sand = pack_sand(parameters.sand, parameters.box(), parameters.settling());
+    sand = pack_sand(run.progress(), parameters.sand, parameters.box(), parameters.settling());
   if (!sand || !settle_sand(run, *sand, parameters.sand))
     return false;
   start = prepare_ground(*sand, parameters);

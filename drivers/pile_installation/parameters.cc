@@ -97,7 +97,7 @@ void InstallationParameters::declare(ParameterFile &file)
 
 void InstallationParameters::validate() const
 {
-  sand.validate(simulation.grain());
+  sand.validate(simulation.grain(), box());
   sand.require_stable({"Pile/time step", simulation.time_step}, simulation.grain());
   settling().validate();
   installing().validate();

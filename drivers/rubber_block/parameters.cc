@@ -118,7 +118,7 @@ void RubberBlockParameters::declare(ParameterFile &file)
 void RubberBlockParameters::validate() const
 {
   block.validate();
-  sand.validate(simulation.grain());
+  sand.validate(simulation.grain(), box());
   settling().validate();
   pulling().validate();
   n_steps();

@@ -91,6 +91,65 @@ class Results(Case):
             self.assertLessEqual(abs(row["shaft_resistance_N"]), 1e-12 * row["shaft_normal_N"])
 
 
+class GrainsFile(Case):
+    """A packing of the user's own, which settles instead of one that the driver makes."""
+
+    HALF_AXES = 0.7e-3, 0.6e-3, 0.5e-3
+    NAMES = "id,x_m,y_m,z_m,qx,qy,qz,qw,a_m,b_m,c_m,exponent_1,exponent_2,material"
+
+    def rows(self, count=(7, 4, 7), spacing=(1.6e-3, 1.45e-3, 1.2e-3)):
+        """Ellipsoids in a lattice, those of every second layer shifted and turned about z; the box holds all of them."""
+        for number in range(count[0] * count[1] * count[2]):
+            k, j, i = number // (count[0] * count[1]), number // count[0] % count[1], number % count[0]
+            x, y = (spacing[0] * (i - 3) + 1e-4 * (k % 2), spacing[1] * (j - 1.5))
+            turn = 0.1 * (k % 2)
+            yield (number, x, y, 0.6e-3 + spacing[2] * k, 0., 0., turn, (1 - turn ** 2) ** 0.5, *self.HALF_AXES, 0.9, 1.1, 0)
+
+    def write(self, name, rows):
+        path = self.tmp / name
+        path.write_text("\n".join([self.NAMES, *(",".join(map(repr, row)) for row in rows)]) + "\n")
+        return path
+
+    def test_a_table(self):
+        rows = list(self.rows())
+        setting = f"Sand/grains file={self.write('own.csv', rows)}"
+        command = self.command(self.tmp / "own", [*SHORT, setting])
+        command.remove("--quiet")
+        result = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("own.csv: 196 grains with half-axes of 0.0005 to 0.0007 m in [", result.stderr)
+        figures = json.loads((self.tmp / "own" / "summary.json").read_text())
+        self.check_balances(figures, self.table("own"))
+        self.assertEqual(figures["particles"], len(rows))
+        self.assertLess(figures["sand_height_m"], 7 * 1.2e-3)  # the lattice has fallen in
+        other = [*rows[:-1], (*rows[-1][:1], rows[-1][1] - 1e-6, *rows[-1][2:])]
+        self.figures("moved", [*SHORT, f"Sand/grains file={self.write('moved.csv', other)}"])
+        self.assertNotEqual(self.table("moved"), self.table("own"))
+
+    def test_a_dump_is_the_same_as_a_table(self):
+        """LIGGGHTS' names and order, and blockiness that is two over our exponents, exactly: 2 / 0.8 and 2 / 1."""
+        rows = [(*row[:11], 1., 0.8, 0) for row in self.rows()]
+        lines = ["ITEM: TIMESTEP", "7", "ITEM: NUMBER OF ATOMS", str(len(rows)), "ITEM: BOX BOUNDS ff ff ff",
+                 *["-0.01 0.01"] * 3,
+                 "ITEM: ATOMS id type x y z quat1 quat2 quat3 quat4 shapex shapey shapez blockiness1 blockiness2"]
+        for number, x, y, z, *turn, a, b, c, _, _, _ in rows:
+            lines.append(" ".join(map(repr, (number + 1, 1, x, y, z, turn[3], *turn[:3], a, b, c, 2.5, 2))))
+        dump = self.tmp / "own.liggghts"
+        dump.write_text("\n".join(lines) + "\n")
+        for name, file in (("table", self.write("own.csv", rows)), ("dump", dump)):
+            self.figures(name, [*SHORT, f"Sand/grains file={file}"])
+        self.assertEqual(self.table("dump"), self.table("table"))
+
+    def test_bad_files(self):
+        rows = list(self.rows())
+        for row, words in (((999, 0, 0, "x", *rows[0][4:]), ("bad.csv, line 198: column 4 (z_m) is ", "no finite number")),
+                           ((999, 5.6e-3, *rows[0][2:]), ("bad.csv: the grain 196", "x = 0.0063 m", "0.006 m")),
+                           ((999, 0, 0, 4e-3, 0, 0, 0, 1, 1e-3, 6e-4, 6e-4, 1, 1, 0),
+                            ("bad.csv: the grain 196", "0.0006 to 0.001 m", "Sand/largest half-axis (0.0009 m)"))):
+            self.assert_refused([f"Sand/grains file={self.write('bad.csv', [*rows, row])}"], *words)
+        self.assert_refused([f"Sand/grains file={self.tmp}/none.csv"], "none.csv")
+
+
 class Restart(Case):
     def test_kill(self):
         """Killed while the sand settles, and stopped by Ctrl-C while the pile goes down: the same to the last bit."""

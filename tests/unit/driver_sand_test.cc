@@ -49,7 +49,7 @@ TEST_CASE("a step beyond the stable one of the smallest grains is refused by its
                     Contains("Pull/time step is") && Contains("smallest grains"));
   SandParameters fast;
   fast.settling_step = 1.01 * limit;
-  CHECK_THROWS_WITH(fast.validate(grain), Contains("Sand/Settling/time step"));
+  CHECK_THROWS_WITH(fast.validate(grain, {Vec3::Zero(), fast.box}), Contains("Sand/Settling/time step"));
 }
 
 TEST_CASE("a packing that got stuck below its target is refused with the remedy")

@@ -7,6 +7,7 @@
 #include "dem/packing/pack_grains.h"
 #include "drivers/common/interrupt.h"
 #include "drivers/common/packing_target.h"
+#include "drivers/common/sand_file.h"
 
 #include <cmath>
 #include <numeric>
@@ -28,9 +29,15 @@ double mean_speed_of(const dem::Particles &grains)
 
 } // namespace
 
-std::unique_ptr<dem::Simulation> pack_sand(const SandParameters &sand, const dem::Box &box,
+std::unique_ptr<dem::Simulation> pack_sand(Progress &progress, const SandParameters &sand, const dem::Box &box,
                                            const dem::SimulationParameters &settling)
 {
+  if (!sand.grains_file.empty())
+  {
+    dem::GrainsOfFile file = read_sand(sand, box, settling.grain());
+    progress.note(file.statement);
+    return std::make_unique<dem::Simulation>(settling, std::move(file.particles), dem::box_walls(box));
+  }
   dem::PackingParameters packing;
   packing.solid_fraction = sand.solid_fraction;
   packing.density = settling.grain().density;

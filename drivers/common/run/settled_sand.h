@@ -11,10 +11,11 @@
 namespace bergamo::driver
 {
 
-/// Grains between the six walls of a box, packed without contacts (Wellmann 3.4.4), with the parameters of their
-/// settling; nothing where the user interrupts it. @param box with the edges of sand.box
+/// Grains between the six walls of a box, packed without contacts (Wellmann 3.4.4) or read from Sand/grains file, with
+/// the parameters of their settling; nothing where the user interrupts it. @param box with the edges of sand.box;
+/// @param progress which is told what was read
 /// @throws ConfigError for a box that is too small, RunError for a packing that gets stuck
-std::unique_ptr<dem::Simulation> pack_sand(const SandParameters &sand, const dem::Box &box,
+std::unique_ptr<dem::Simulation> pack_sand(Progress &progress, const SandParameters &sand, const dem::Box &box,
                                            const dem::SimulationParameters &settling);
 
 /// Lets packed sand settle, as a stage of a run, to the forces of its last step. @return false where the user has
