@@ -8,7 +8,8 @@ namespace bergamo::driver
 namespace
 {
 
-constexpr double largest_overlap = 0.01; // with a wall, of the smallest half-axis: a packing under load has some
+constexpr double largest_overlap = 0.1; // with a wall, of the smallest half-axis: soft grains have some percent
+constexpr double rounding = 1e-6;       // of half-axes that a picture has in single precision
 
 void require_inside(const dem::Particles &grains, const std::size_t part, const dem::Box &box, const std::string &file)
 {
@@ -37,7 +38,8 @@ dem::GrainsOfFile read_sand(const SandParameters &sand, const dem::Box &box, con
   for (std::size_t k = 0; k < grains.parts.size(); ++k)
   {
     const Vec3 &half_axes = grains.parts.shape[k].half_axes;
-    if (half_axes.minCoeff() < limits.smallest_half_axis || half_axes.maxCoeff() > limits.largest_half_axis)
+    if (half_axes.minCoeff() < (1. - rounding) * limits.smallest_half_axis ||
+        half_axes.maxCoeff() > (1. + rounding) * limits.largest_half_axis)
       reject("Sand/grains file, ", sand.grains_file, ": the grain ", grains.parts.particle[k], ", counted from 0, has ",
              "half-axes of ", half_axes.minCoeff(), " to ", half_axes.maxCoeff(), " m; set Sand/smallest half-axis (",
              limits.smallest_half_axis, " m) and Sand/largest half-axis (", limits.largest_half_axis,
