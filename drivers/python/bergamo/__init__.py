@@ -10,7 +10,7 @@
 
 SI units, tension positive, global frame, quaternions in the order (x, y, z, w). Needs NumPy; pictures need VTK's Python
 (python3-vtk9), snapshots h5py, diagrams matplotlib: each is imported when it is first needed.
-`python3 -m bergamo` shows, watches and compares runs in a terminal. docs/python.md has examples.
+`python3 -m bergamo` shows, watches, compares and exports runs in a terminal. docs/python.md has examples.
 """
 
 from .archive import Archive

@@ -1,4 +1,4 @@
-"""Runs of Bergamo in a terminal: python3 -m bergamo show | watch | compare ..."""
+"""Runs of Bergamo in a terminal: python3 -m bergamo show | watch | compare | export ..."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 
 from . import open_run
 from .compare import check_columns, compare, draw
 from .errors import Error
+from .export import DEFAULT, KINDS, export, scene_of
 from .show import show
 from .watch import Watch
 
@@ -17,7 +19,7 @@ FINISHED, INTERRUPTED, WRONG, STOPPED = 0, 1, 2, 130
 
 
 def parser() -> argparse.ArgumentParser:
-    whole = argparse.ArgumentParser(prog="python3 -m bergamo", description="Shows, watches and compares runs of Bergamo.")
+    whole = argparse.ArgumentParser(prog="python3 -m bergamo", description="Shows, watches, compares and exports runs of Bergamo.")
     commands = whole.add_subparsers(dest="command", required=True, metavar="COMMAND")
     one = commands.add_parser("show", help="what is in a run's folder")
     one.add_argument("run", metavar="RUN")
@@ -29,6 +31,15 @@ def parser() -> argparse.ArgumentParser:
     three.add_argument("runs", nargs=2, metavar="RUN")
     three.add_argument("--output", default="comparison.png", metavar="PNG", help="default comparison.png")
     three.add_argument("--columns", default="", metavar="A,B", help="of the histories, to draw (default: all)")
+    four = commands.add_parser("export", help="write grains and contacts for other programs")
+    four.add_argument("source", metavar="RUN_OR_SNAPSHOT", help="folder of a run, or its snapshot.h5 or the like")
+    four.add_argument("--as", dest="kinds", default=",".join(DEFAULT), metavar="A,B",
+                      help=f"of {', '.join(KINDS)} (default {','.join(DEFAULT)})")
+    four.add_argument("--output", default="export", metavar="FOLDER", help="default export")
+    four.add_argument("--picture", type=int, metavar="N",
+                      help="of a run, from 0, -1 the last (default: its snapshot, or else its last picture)")
+    four.add_argument("--steps", type=int, metavar="N", help="points a quarter turn of surfaces and glyphs, even (default 6 "
+                      "for surfaces, 4 for glyphs and for surfaces of more than 10000 grains)")
     return whole
 
 
@@ -40,6 +51,11 @@ def run_command(words: argparse.Namespace) -> int:
         if not words.interval > 0:
             raise Error(f"--interval is {words.interval}; give a number of seconds above 0")
         return FINISHED if Watch(sys.stdout, words.interval, columns).follow(open_run(words.run)) else INTERRUPTED
+    elif words.command == "export":
+        kinds = [kind for kind in words.kinds.split(",") if kind]
+        scene = replace(scene_of(words.source, words.picture), steps=words.steps)
+        files = export(scene, words.output, kinds)
+        print(f"{scene.source}: {len(scene.grains)} grains at {scene.grains.time:.6g} s", *files, sep="\n  ")
     else:
         first, second = map(open_run, words.runs)
         check_columns((first, second), columns)

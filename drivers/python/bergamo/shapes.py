@@ -21,6 +21,7 @@ class Parts:
     quaternion: np.ndarray  # (m, 4) (x, y, z, w), the part's frame to the global one
     half_axes: np.ndarray  # (m, 3) [m]
     exponents: np.ndarray  # (m, 2) e1 in the plane of the first two axes, e2 along the third
+    material: np.ndarray | None = None  # (m,) number in the simulation's table; pictures do not tell
 
     def __len__(self) -> int:
         return len(self.centre)

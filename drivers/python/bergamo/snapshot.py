@@ -74,7 +74,7 @@ class Snapshot(Archive):
         of_carrier = rotation.matrices(data["orientation"])[carrier]
         centre = data["position"][carrier] + np.einsum("kij,kj->ki", of_carrier, part["place"].reshape(-1, 3))
         turn = rotation.products(data["orientation"][carrier], part["turn"].reshape(-1, 4))
-        parts = Parts(carrier, centre, turn, shape[:, :3], shape[:, 3:])
+        parts = Parts(carrier, centre, turn, shape[:, :3], shape[:, 3:], part["material"].astype(np.int64))
         number, position, velocity, volume = (data.pop(name) for name in ("id", "position", "velocity", "volume"))
         return Grains(self.time, number, position, velocity, volume, data, parts, self.path)
 
@@ -143,7 +143,8 @@ class Snapshot(Archive):
         """Contacts of one kind and pair of materials, in rows of grains. @param position (n, 3), edges (3,) [m]"""
         group = self.arrays(f"dem/contacts/{kind}_{law}/touching")
         used = group["pair"] >= 0  # other slots are free
-        state = named(KINDS[kind], group["state"].reshape(len(used), -1)[used])
+        length = sum(size for _, size in KINDS[kind])
+        state = named(KINDS[kind], group["state"].reshape(len(used), length)[used])
         first, second, image = (group[name][used] for name in ("first", "second", "image"))
         weight, start = state["weight"], position[first]
         is_pair = kind in ("grain_grain", "sphere_sphere")
