@@ -69,6 +69,7 @@ class Installation(unittest.TestCase):
 
     def test_the_package_in_python(self):
         package = next(self.prefix.rglob("bergamo/__init__.py")).parents[1]
+        self.assertTrue((package / "bergamo" / "export" / "states" / "glyphs.py").is_file())  # read by export
         done = run("/usr/bin/python3", "-B", "-m", "bergamo", "show", self.tmp / "nowhere", cwd=self.tmp,
                    env={**os.environ, "PYTHONPATH": str(package)})
         self.assertEqual(done.returncode, 2, done.stdout)

@@ -104,6 +104,19 @@ TEST_CASE("the time left follows from the stage's own fraction, also after a res
   CHECK_THAT(display.stream.str(), Contains("  5 steps/s  50 particle-steps/s  1 min 20 s left"));
 }
 
+TEST_CASE("a note is a line of its own, before and within a stage")
+{
+  Display display;
+  Progress progress(display.options(true));
+  progress.note("grains.csv: 3 grains");
+  CHECK(display.stream.str() == "grains.csv: 3 grains\n");
+  progress.begin_stage("shear", {.steps = 0, .particles = 10});
+  display.now += 20;
+  progress.update({.fraction = 0.5, .steps = 10, .particles = 10});
+  progress.note("the pile stands");
+  CHECK_THAT(display.stream.str(), Contains("\rthe pile stands\n"));
+}
+
 TEST_CASE("quiet is silent but for warnings")
 {
   for (const bool is_terminal : {false, true})
@@ -111,6 +124,7 @@ TEST_CASE("quiet is silent but for warnings")
     Display display;
     Progress progress(display.options(is_terminal, true));
     run_stage(display, progress);
+    progress.note("grains.csv: 3 grains");
     CHECK(display.stream.str().empty());
     progress.begin_stage("shear");
     progress.warn("the step is long");
