@@ -70,23 +70,72 @@ ClumpPart part_of(const TextRows &rows, const GrainColumns &columns, const doubl
   return part;
 }
 
-/// Adds a body by the global places of its parts.
-void add_body(Particles &particles, ClumpShape shape, const double density, const std::int32_t material)
+/// Kinds of clumps that a file has, up to their size: the integrals over what parts share take half a second each.
+class ClumpKinds
 {
-  const Vec3 origin = shape.parts.front().position;
-  const Quaternion turn = shape.parts.front().orientation;
-  if (shape.parts.size() == 1)
+public:
+  /// The clump in its principal frame. @param shape in the frame of its first part
+  Clump of(const ClumpShape &shape)
   {
-    particles.add(shape.parts.front().shape, density, origin, turn, material);
-    particles.orientation.back() = turn; // not made unit once more, which would change its last digits
+    const double size = shape.parts.front().shape.half_axes[0];
+    ClumpShape unit = shape;
+    for (ClumpPart &part : unit.parts)
+    {
+      part.shape.half_axes /= size;
+      part.position /= size;
+    }
+    for (const Kind &kind : kinds)
+      if (are_alike(kind.unit, unit))
+        return kind.clump.scaled(size / kind.size);
+    kinds.push_back({std::move(unit), size, Clump(shape)});
+    return kinds.back().clump;
+  }
+
+private:
+  struct Kind
+  {
+    ClumpShape unit; ///< over the first half-axis of its first part
+    double size;     ///< that half-axis [m]
+    Clump clump;
+  };
+
+  static constexpr double tolerance = 1e-6; // that of the integrals, and of files in single precision
+
+  static bool are_alike(const ClumpPart &a, const ClumpPart &b)
+  {
+    return (a.shape.half_axes - b.shape.half_axes).norm() < tolerance &&
+           std::abs(a.shape.eps1 - b.shape.eps1) < tolerance && std::abs(a.shape.eps2 - b.shape.eps2) < tolerance &&
+           (a.position - b.position).norm() < tolerance && a.orientation.angularDistance(b.orientation) < tolerance;
+  }
+  static bool are_alike(const ClumpShape &a, const ClumpShape &b)
+  {
+    return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
+                      [](const ClumpPart &p, const ClumpPart &q) { return are_alike(p, q); });
+  }
+
+  std::vector<Kind> kinds;
+};
+
+/// A body by the global places of its parts, and what all of it is made of.
+struct Body
+{
+  ClumpShape shape;
+  std::int32_t material = 0;
+};
+
+void add_body(Particles &particles, const Body &body, const double density, ClumpKinds &kinds)
+{
+  const ClumpPart &first = body.shape.parts.front();
+  if (body.shape.parts.size() == 1)
+  {
+    particles.add(first.shape, density, first.position, first.orientation, body.material);
+    particles.orientation.back() = first.orientation; // not made unit once more, which would change its last digits
     return;
   }
-  for (ClumpPart &part : shape.parts)
-    part.position -= origin;
-  const Clump clump(shape);
-  const ClumpPart &first = clump.parts().front(); // the same part in the principal frame
-  const Quaternion principal = turn * first.orientation.conjugate();
-  particles.add(clump, density, origin - principal * first.position, principal, material);
+  const Clump clump = kinds.of(in_frame(body.shape, first.position, first.orientation));
+  const ClumpPart &same = clump.parts().front(); // the first part in the principal frame
+  const Quaternion principal = first.orientation * same.orientation.conjugate();
+  particles.add(clump, density, first.position - principal * same.position, principal, body.material);
 }
 
 /// Ids of the file where they are 0 to n - 1; otherwise those that particles have, which count them.
@@ -146,12 +195,12 @@ GrainsOfFile read_grains(const std::filesystem::path &path, const MaterialTable 
   GrainsOfFile result;
   std::vector<std::int64_t> ids;
   std::unordered_set<std::int64_t> known;
-  ClumpShape body;
-  std::int32_t material = 0;
+  ClumpKinds kinds;
+  Body body;
   const auto finish_body = [&]
   {
-    if (!body.parts.empty())
-      add_body(result.particles, std::exchange(body, {}), materials[material].density, material);
+    if (!body.shape.parts.empty())
+      add_body(result.particles, std::exchange(body, {}), materials[body.material].density, kinds);
   };
   const bool is_dump = !is_table(path);
   std::int64_t n_lines = 0;
@@ -169,10 +218,10 @@ GrainsOfFile read_grains(const std::filesystem::path &path, const MaterialTable 
                     " was given to a grain before; only the parts of a clump have the same, line after line");
       ids.push_back(id);
     }
-    else if (own_material != material)
-      rows.refuse("the grain ", id, " is of material ", material, " and of ", own_material, "; give it one");
-    material = own_material;
-    body.parts.push_back(part_of(rows, columns, unit));
+    else if (own_material != body.material)
+      rows.refuse("the grain ", id, " is of material ", body.material, " and of ", own_material, "; give it one");
+    body.material = own_material;
+    body.shape.parts.push_back(part_of(rows, columns, unit));
   }
   finish_body();
   if (is_dump && n_announced >= 0 && n_lines != n_announced)

@@ -22,8 +22,9 @@ struct GrainsOfFile
 
 /// Reads grains from a table with commas (.csv) or a dump of one time step of LAMMPS or LIGGGHTS (any other name); see
 /// GrainColumns for the names of the columns, others are left out. Lines of a table that follow one another with the
-/// same id are the parts of a clump. Places, half-axes and exponents are taken to the last digit; ids too, where they
-/// are 0 to n - 1 in any order, otherwise grains are counted in the order of the file.
+/// same id are the parts of a clump; clumps that are alike up to their size, to 1e-6, are copies of the first of them.
+/// Of plain grains places, half-axes and exponents are taken to the last digit; ids too, where they are 0 to n - 1 in
+/// any order, otherwise grains are counted in the order of the file.
 /// @param materials whose densities the grains have; @param unit of the file's lengths [m]
 /// Throws ConfigError, with file, line and column, for what cannot be read, has no meaning, or names a grain twice.
 GrainsOfFile read_grains(const std::filesystem::path &path, const MaterialTable &materials, double unit = 1.);

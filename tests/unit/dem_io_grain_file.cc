@@ -142,6 +142,45 @@ TEST_CASE("lines of one id are a clump, each part where the file has it")
   CHECK((p.position[0] - share * Vec3(1., 2., 0.)).norm() < 1e-9);
 }
 
+TEST_CASE("clumps that are alike lie where the file has them, at each size and turn")
+{
+  ClumpShape shape;
+  shape.parts = {{{Vec3(1., 0.5, 0.5), 1., 1.}, Vec3(2., 0., 1.), Quaternion(0.8, 0., 0., 0.6)},
+                 {{Vec3(0.5, 0.5, 0.7), 0.8, 1.}, Vec3(2.3, 0.4, 1.1), Quaternion::Identity()}};
+  const Quaternion turn(Eigen::AngleAxisd(2., Vec3(1., -2., 0.5).normalized()));
+  const auto placed = [&](const ClumpPart &part, const double size) {
+    return ClumpPart{part.shape, size * (turn * part.position) + Vec3(7., 8., 9.), turn * part.orientation};
+  };
+  std::string text = names;
+  for (const double size : {1., 1.7, -1.7}) // the last one with another second part
+    for (const ClumpPart &part : shape.parts)
+    {
+      const ClumpPart here = placed(part, std::abs(size));
+      const double other = size < 0. && &part != &shape.parts.front() ? 1.01 : 1.;
+      text += size == 1. ? "0" : size > 0. ? "1" : "2";
+      for (const double number : here.position)
+        text += ',' + digits(number);
+      for (const double number : here.orientation.coeffs())
+        text += ',' + digits(number);
+      for (const double number : part.shape.half_axes)
+        text += ',' + digits(std::abs(size) * other * number);
+      text += ',' + digits(part.shape.eps1) + ',' + digits(part.shape.eps2) + ",0\n";
+    }
+  const Particles p = read("alike.csv", text).particles;
+  REQUIRE(p.size() == 3);
+  p.check(2);
+  CHECK(p.volume[1] == Approx(std::pow(1.7, 3) * p.volume[0]).epsilon(1e-12));
+  CHECK(p.volume[2] > 1.001 * p.volume[1]);
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      const ClumpPart here = placed(shape.parts[k], i == 0 ? 1. : 1.7);
+      CHECK((p.part_position(2 * i + k) - here.position).norm() < 1e-6);
+      CHECK(p.part_orientation(2 * i + k).angularDistance(here.orientation) < 1e-6);
+    }
+  CHECK(p.parts.shape[5].half_axes[2] == Approx(1.7 * 1.01 * 0.7).epsilon(1e-12));
+}
+
 TEST_CASE("dumps of LIGGGHTS: blockiness across and along, the scalar of the quaternion first")
 {
   const Particles p = read("dump.liggghts", dump("type id x y z vx shapex shapey shapez quat1 quat2 quat3 quat4 "
