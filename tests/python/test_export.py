@@ -65,7 +65,7 @@ class Tables(FolderCase):
         self.assertEqual((list(table["id"]), list(table["mol"])), (list("0123"), list("7773")))
 
     def test_a_snapshot_through_a_driver(self):
-        """Grains of a stopped run, as a table, settle in another run: shapes, ids and masses are the same to the last bit."""
+        """Grains of a stopped run, as a table, settle in another run: the same shapes, ids and masses to the last bit."""
         before = bergamo.open(stopped_run_of("penetration", "history.csv", 5)).snapshot()
         path = export.write_grains(before.grains, self.tmp / "grains.csv")
         after = bergamo.open(stopped_run_of("penetration", "history.csv", 5, f"Sand/grains file={path}",

@@ -1,4 +1,4 @@
-"""Writes grains and contacts for other programs: `python3 -m bergamo export RUN_OR_SNAPSHOT`. docs/files.md has the formats."""
+"""Writes grains and contacts for other programs: `python3 -m bergamo export`. docs/files.md has the formats."""
 
 from __future__ import annotations
 
@@ -73,7 +73,8 @@ def scene_of_snapshot(snapshot: Snapshot, contact_files: list[Path]) -> Scene:
 def scene_of_picture(run: Run, number: int, contact_files: list[Path]) -> Scene:
     grains = run.pictures["grains"]
     if not -len(grains) <= number < len(grains):
-        raise Error(f"{run.folder} has {len(grains)} pictures of grains; --picture is {number}, counted from 0 (-1: the last)")
+        raise Error(f"{run.folder} has {len(grains)} pictures of grains; --picture is {number}, counted from 0 (-1: the "
+                    "last)")
     shown: Grains = grains[number]
     contacts = None
     if "contacts" in run.pictures:

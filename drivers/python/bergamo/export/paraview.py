@@ -24,8 +24,8 @@ GLYPH_STEPS = 4  # a quarter turn: 128 faces a grain
 
 
 def write_surfaces(grains: Grains, path: Path, finest: int | None = None) -> Path:
-    """All grains by their surfaces, small ones more coarsely, see steps_by_size(). Faces carry id, velocity and what the source
-    has of one number a grain. @param finest steps a quarter turn of the largest, even; none: by the number of grains
+    """All grains by their surfaces, small ones more coarsely, see steps_by_size(). Faces carry id, velocity and what the
+    source has of one number a grain. @param finest steps a quarter turn of the largest, even; none: by the number of grains
     """
     parts = grains.parts
     finest = checked(finest or (FINEST if len(parts) <= MANY else FINEST - 2))
@@ -66,7 +66,8 @@ def write_glyphs(grains: Grains, folder: Path, steps: int | None = None) -> list
     add(points.GetPointData(), "shape", shape.reshape(-1).astype(np.int32))
     for name, values in shown(grains).items():
         add(points.GetPointData(), name, values[parts.grain])
-    files = [write_poly_data(points, folder / "glyphs.vtp"), write_shapes(kinds * GRID, folder / "shapes.vtm", checked(steps or GLYPH_STEPS))]
+    files = [write_poly_data(points, folder / "glyphs.vtp"),
+             write_shapes(kinds * GRID, folder / "shapes.vtm", checked(steps or GLYPH_STEPS))]
     return [*files, write_state("glyphs", folder / "show_glyphs.py", POINTS=str(files[0].resolve()),
                                 SHAPES=str(files[1].resolve()))]
 
@@ -79,7 +80,8 @@ def write_shapes(exponents: np.ndarray, path: Path, steps: int) -> Path:
     blocks = vtkMultiBlockDataSet()
     for number, surface in enumerate(surface_points(angles, np.ones((len(exponents), 3)), exponents)):
         cells = [list(dict.fromkeys(face)) for face in faces.tolist()]
-        blocks.SetBlock(number, poly_data(surface.astype(np.float32), (np.concatenate(cells), np.array(list(map(len, cells))))))
+        sizes = np.array([len(cell) for cell in cells])
+        blocks.SetBlock(number, poly_data(surface.astype(np.float32), (np.concatenate(cells), sizes)))
     writer = vtkXMLMultiBlockDataWriter()
     writer.SetFileName(str(path))
     writer.SetInputData(blocks)
@@ -136,7 +138,8 @@ def poly_data(points: np.ndarray, faces: tuple[np.ndarray, np.ndarray] | None = 
     corners, sizes = faces or (np.arange(len(points)), np.ones(len(points)))
     offsets = np.concatenate([[0], np.cumsum(sizes)])
     whole_numbers = np.int32 if max(offsets[-1], len(points)) < 2 ** 31 else np.int64
-    cells.SetData(*(numpy_to_vtk(np.ascontiguousarray(array, dtype=whole_numbers), deep=True) for array in (offsets, corners)))
+    cells.SetData(*(numpy_to_vtk(np.ascontiguousarray(array, dtype=whole_numbers), deep=True)
+                    for array in (offsets, corners)))
     (data.SetPolys if faces else data.SetVerts)(cells)
     return data
 

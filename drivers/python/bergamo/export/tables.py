@@ -15,8 +15,8 @@ CONTACTS = ("first,second,x_m,y_m,z_m,nx,ny,nz,bx_m,by_m,bz_m,normal_force_N,fx_
 
 
 def write_grains(grains: Grains, path: Path) -> Path:
-    """A row a part: plain grains have one, a clump one for each part, under its id. Drivers read the table again (Sand/grains
-    file): of a snapshot, the very same grains. The material is left out where the source does not tell it.
+    """A row a part: plain grains have one, a clump one for each part, under its id. Drivers read the table again
+    (Sand/grains file): of a snapshot, the very same grains. The material is left out where the source does not tell it.
     """
     parts = grains.parts
     columns = [grains.id[parts.grain], parts.centre, parts.quaternion, parts.half_axes, parts.exponents]
@@ -29,8 +29,8 @@ def write_grains(grains: Grains, path: Path) -> Path:
 
 def write_contacts(contacts: Contacts, path: Path) -> Path:
     """A row a contact: ids of the grains (-1: a wall or a surface), place, unit normal from the first body to the second,
-    branch, normal force, force and its tangential part on the first grain, overlap; of snapshots also the numbers of wall and
-    feature (-1: none) and of the pair of materials.
+    branch, normal force, force and its tangential part on the first grain, overlap; of snapshots also the numbers of wall
+    and feature (-1: none) and of the pair of materials.
     """
     head = CONTACTS
     columns = [contacts.first.astype(np.int64), contacts.second.astype(np.int64), contacts.point, contacts.normal,

@@ -1,9 +1,10 @@
-"""Force chains in ParaView: File, Load State, this file. Contacts above the mean force as tubes, as thick as their force; weaker
-ones as lines. The filter "chains" has the threshold, "radius" the thickness.
+"""Force chains in ParaView: File, Load State, this file. Contacts above the mean force as tubes, as thick as their force, all
+of them as faint lines. The filter "chains" has the threshold, "radius" the thickness.
 """
 
-from paraview.simple import (Calculator, CellDatatoPointData, ColorBy, ExtractSurface, GetActiveViewOrCreate, GetAnimationScene, OpenDataFile, RenameSource, Render,
-                             ResetCamera, SetActiveSource, Show, Threshold, Tube)
+from paraview.simple import (Calculator, CellDatatoPointData, ColorBy, ExtractSurface, GetActiveViewOrCreate,
+                             GetAnimationScene, OpenDataFile, RenameSource, Render, ResetCamera, SetActiveSource, Show,
+                             Threshold, Tube)
 
 CONTACTS = None  # contacts.pvd of the run
 MEAN_FORCE = None  # of the contacts that were exported [N]
@@ -24,7 +25,8 @@ radius = Calculator(Input=chains, AttributeType="Cell Data", ResultArrayName="ra
                     Function=f"sqrt(normal_force/{MEAN_FORCE!r})*{0.06 * MEAN_LENGTH!r}")
 RenameSource("radius", radius)
 ends = CellDatatoPointData(Input=radius, ProcessAllArrays=1)
-tubes = Tube(Input=ExtractSurface(Input=ends), Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar", NumberofSides=8)
+tubes = Tube(Input=ExtractSurface(Input=ends), Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar",
+             NumberofSides=8)
 RenameSource("force chains", tubes)
 shown = Show(tubes, view)
 ColorBy(shown, ("POINTS", "normal_force"))

@@ -2,7 +2,8 @@
 exponents from shapes.vtm, stretched by its half-axes and turned by its quaternion.
 """
 
-from paraview.simple import (ColorBy, GetActiveViewOrCreate, OpenDataFile, RenameSource, Render, ResetCamera, SetActiveSource, Show)
+from paraview.simple import (ColorBy, GetActiveViewOrCreate, OpenDataFile, RenameSource, Render, ResetCamera,
+                             SetActiveSource, Show)
 
 POINTS = None  # glyphs.vtp
 SHAPES = None  # shapes.vtm
