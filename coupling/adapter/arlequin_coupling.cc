@@ -260,14 +260,16 @@ void ArlequinCoupling::balance_edge(const std::span<const std::size_t> held)
   }
 }
 
-/// Strengths of the held grains' springs, of their transfer at this step.
+/// Strengths of the held grains' springs, of their transfer at this step. A spring bears the dead load, too, where the
+/// contacts go that it was in balance with.
 void ArlequinCoupling::limit_edge()
 {
   if (parameters_.edge.strength == 0.)
     return;
   HeldEdge &edge = penalty_.edge();
   for (std::size_t k = 0; k < edge.size(); ++k)
-    edge.strength[k] = parameters_.edge.strength * transfer_.force[edge.particles()[k]].norm();
+    edge.strength[k] =
+        edge.dead_load[k].norm() + parameters_.edge.strength * transfer_.force[edge.particles()[k]].norm();
 }
 
 /// Of a transfer along the step that led here [W].

@@ -50,6 +50,7 @@ HeldEdge::HeldEdge(const Overlap &overlap, const std::span<const double> node_we
   }
   dead_load.assign(size(), Eigen::Vector3d::Zero());
   shift_.assign(size(), Eigen::Vector3d::Zero());
+  stretch_.assign(size(), Eigen::Vector3d::Zero());
   strength.assign(size(), std::numeric_limits<double>::infinity());
 }
 
@@ -76,6 +77,7 @@ double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_disp
       {
         difference += shift_[k];
         slip(k, difference);
+        stretch_[k] = difference;
       }
       Eigen::Vector3d force = -stiffness_[k] * difference;
       energy_[k] = 0.5 * stiffness_[k] * difference.squaredNorm();
@@ -105,7 +107,7 @@ void HeldEdge::slip(const std::size_t k, Eigen::Vector3d &stretch)
   const Eigen::Vector3d slipped = (1. - strength[k] / pull) * stretch;
   stretch -= slipped;
   shift_[k] -= slipped;
-  slip_loss_ += (stiffness_[k] * stretch - dead_load[k]).dot(slipped);
+  slip_loss_ += (0.5 * stiffness_[k] * (stretch_[k] + stretch) - dead_load[k]).dot(slipped);
 }
 
 /// Of particles in the same element that follow one another.
@@ -173,6 +175,7 @@ void HeldEdge::copy(const std::size_t from, const HeldEdge &other, const std::si
   shift_[to] = other.shift_[from];
   dead_load[to] = other.dead_load[from];
   strength[to] = other.strength[from];
+  stretch_[to] = other.stretch_[from];
   place_[to] = other.place_[from];
   energy_[to] = other.energy_[from];
   std::copy_n(other.node_.begin() + n_nodes * from, n_nodes, node_.begin() + n_nodes * to);
@@ -190,6 +193,7 @@ void HeldEdge::remove(const std::vector<bool> &is_gone)
   shift_.resize(kept);
   dead_load.resize(kept);
   strength.resize(kept);
+  stretch_.resize(kept);
   place_.resize(kept);
   energy_.resize(kept);
   node_.resize(n_nodes * kept);

@@ -15,7 +15,8 @@ struct EdgeParameters
 {
   double depth = 1.5;      ///< of the edge, in mean diameters of the coupled grains (spheres of their volumes); 0: none
   double stiffness = 1e16; ///< per volume of grains [Pa/m^2], > 0
-  double strength = 0.6;   ///< of the springs, over what the gradient of the weights takes from the grain; 0: any force
+  /// Of the springs, over what the gradient of the weights takes from the grain, beside its dead load; 0: any force.
+  double strength = 0.6;
 
   /// Throws ConfigError.
   void validate() const;
@@ -81,6 +82,7 @@ public:
     visit("place", self.place_);
     visit("shift", self.shift_);
     visit("dead_load", self.dead_load);
+    visit("stretch", self.stretch_);
     visit("slip_loss", self.slip_loss_);
   }
 
@@ -94,12 +96,13 @@ private:
 
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> particle_;
-  std::vector<double> stiffness_;      // [N/m]
-  std::vector<std::int32_t> node_;     // of the mesh, 8 a particle
-  std::vector<Eigen::Vector3d> place_; // in their element, in local coordinates
-  std::vector<Eigen::Vector3d> shift_; // of the places from which displacements count since the edge was made [m]
-  std::vector<double> energy_;         // at the last add_forces() [J]
-  double slip_loss_ = 0.;              // [J]
+  std::vector<double> stiffness_;        // [N/m]
+  std::vector<std::int32_t> node_;       // of the mesh, 8 a particle
+  std::vector<Eigen::Vector3d> place_;   // in their element, in local coordinates
+  std::vector<Eigen::Vector3d> shift_;   // of the places from which displacements count since the edge was made [m]
+  std::vector<Eigen::Vector3d> stretch_; // of the springs at the last add_forces() with all loads [m]
+  std::vector<double> energy_;           // at the last add_forces() [J]
+  double slip_loss_ = 0.;                // [J]
 };
 
 } // namespace bergamo::coupling
