@@ -135,6 +135,8 @@ Exchange Simulation::add(const Particles &added)
     throw ConfigError(
         "grains that are added bring no external forces, torques or transfers: set those of all grains afterwards");
   Exchange come;
+  if (added.size() > 0)
+    announce_moving();
   for (std::size_t i = 0; i < added.size(); ++i)
   {
     ++come.n_particles;

@@ -129,9 +129,16 @@ void Simulation::sort_by_place()
   renew_neighbours();
 }
 
+void Simulation::announce_moving() const
+{
+  if (before_moving)
+    before_moving();
+}
+
 /// Takes the order of the particles, order[new] = old, of those that stay; the neighbours must be renewed afterwards.
 void Simulation::take_order(const std::vector<std::int32_t> &order)
 {
+  announce_moving();
   const std::size_t n_parts = particles.parts.size();
   const std::vector<std::int32_t> part_order = particles.reorder(order);
   accounts.reorder(order);

@@ -14,6 +14,7 @@
 #include "dem/state/wall.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace bergamo
@@ -137,6 +138,10 @@ public:
   /// Grows whenever grains may have changed their places in the arrays; not a part of the state.
   std::int64_t n_orders() const { return index.n_orders(); }
 
+  /// Called before grains change their places in the arrays, or these grow: who reads them in place lets go of them.
+  /// Not a part of the state.
+  std::function<void()> before_moving{};
+
   Particles particles;
   std::vector<PlaneWall> walls;
   std::vector<Surface> surfaces; ///< see add_surface(); velocities of the nodes may be set
@@ -176,6 +181,7 @@ private:
   void load_surfaces();
   void move_surfaces(double drift);
   std::vector<std::vector<Vec3>> forces_of_moving() const;
+  void announce_moving() const;
   void take_order(const std::vector<std::int32_t> &order);
   double kinetic_energy_of(std::size_t i) const;
   double step_change_here() const;
