@@ -1,5 +1,5 @@
-# What `cmake --install` brings, by component: dem (grains), fe (continuum), coupling, python (the package that reads
-# runs). Libraries are static; headers lie in include/bergamo and are included as here, "dem/simulation/simulation.h".
+# What `cmake --install` brings, by component: dem (grains), fe (continuum), coupling, python (the package bergamo,
+# see drivers/python). Libraries are static; headers lie in include/bergamo and are included as here, "dem/simulation/simulation.h".
 # The drivers stay in the build: they start scripts of the checkout.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
@@ -46,17 +46,6 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/BergamoConfigVersion.cmak
 install(FILES ${PROJECT_BINARY_DIR}/BergamoConfig.cmake ${PROJECT_BINARY_DIR}/BergamoConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/dem_libraries.cmake DESTINATION ${config_dir} COMPONENT dem)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/fe_libraries.cmake DESTINATION ${config_dir} COMPONENT fe)
-
-# The package that reads runs: used from the checkout (PYTHONPATH=drivers/python), or installed where Debian's Python looks.
-set(debian_python python3) # of /usr; elsewhere with its version
-if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
-  execute_process(COMMAND /usr/bin/python3 -c "import sys; print('python%d.%d' % sys.version_info[:2])"
-    OUTPUT_VARIABLE debian_python OUTPUT_STRIP_TRAILING_WHITESPACE)
-endif()
-set(BERGAMO_PYTHON_DIR lib/${debian_python}/dist-packages CACHE STRING
-  "Where to install the Python package, below the install prefix or absolute")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/drivers/python/bergamo DESTINATION ${BERGAMO_PYTHON_DIR} COMPONENT python
-  FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 
 # Programs and tests are not installed: an installation does not wait for them.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
