@@ -1,6 +1,5 @@
 """What Python's simulations write is read by the package as a driver's run is."""
 
-import os
 import unittest
 
 import numpy as np
@@ -101,11 +100,15 @@ class Files(FolderCase):
         with self.assertRaisesRegex(engine.RunError, "damaged"):
             engine.Simulation.load(path)
 
-    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
-    def test_folders_that_cannot_be_written(self):
-        self.tmp.chmod(0o500)
-        with self.assertRaises(engine.RunError):
-            self.simulation.save(self.tmp / "snapshot.h5")
+    def test_places_that_cannot_be_written(self):
+        file = self.write("file", "")
+        for path in (file / "snapshot.h5", self.tmp):
+            with self.assertRaisesRegex(engine.RunError, str(self.tmp)):
+                self.simulation.save(path)
+        for folder in (file, file / "inner"):
+            with self.assertRaisesRegex(engine.RunError, "cannot make the folder"):
+                self.simulation.draw(folder)
+        self.assertEqual([path.name for path in self.tmp.iterdir()], ["file"])
 
 
 if __name__ == "__main__":

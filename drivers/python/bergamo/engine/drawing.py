@@ -1,4 +1,4 @@
-"""Pictures of a simulation, as drivers write theirs: bergamo.open(folder).pictures and ParaView read them."""
+"""Files of a simulation: their folder, and pictures for bergamo.open(folder).pictures and ParaView."""
 
 from __future__ import annotations
 
@@ -6,12 +6,21 @@ from pathlib import Path
 from typing import Any
 
 from ..pictures import read_pvd
+from .errors import RunError
 from .library import library
+
+
+def make_folder(folder: Path) -> None:
+    """RunError where it cannot be made."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise RunError(f"cannot make the folder {folder}: {error.strerror}; choose another one") from None
 
 
 def draw_into(folder: Path, model: Any, names: list[str], time: float) -> list[Path]:
     """Adds a picture at a time [s] to each series; later ones, of a run that was begun anew from a snapshot, go."""
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     drawn = []
     for name in names:
         index = folder / f"{name}.pvd"

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ..contacts import Contacts
 from .arrays import Arrays
 from .bodies import Plane, Surface
-from .drawing import draw_into
+from .drawing import draw_into, make_folder
 from .errors import ConfigError
 from .grains import Grains, rows_of
 from .library import library
@@ -57,7 +57,7 @@ class Simulation(Arrays):
         """Writes all that the simulation needs to go on, whole or not at all; RunError where it cannot be written.
         `bergamo.open(folder).snapshot()` reads a file snapshot.h5. The folder is made.
         """
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        make_folder(Path(path).parent)
         self._model.save(fspath(path), text_of(self.parameters))
 
     # Steps
