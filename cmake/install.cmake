@@ -1,5 +1,6 @@
-# What `cmake --install` brings, by component: dem (grains), fe (continuum), coupling, python (the package bergamo,
-# see drivers/python). Libraries are static; headers lie in include/bergamo and are included as here, "dem/simulation/simulation.h".
+# What `cmake --install` brings, by component: dem (grains), fe (continuum), coupling, python (the package bergamo, see
+# drivers/python). Libraries are static; headers lie in include/bergamo and are included as here,
+# "dem/simulation/simulation.h".
 # The drivers stay in the build: they start scripts of the checkout.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
@@ -57,7 +58,7 @@ set(CPACK_PACKAGE_CONTACT "Bergamo's developers")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Two-scale granular mechanics: libraries, headers, Python package")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_GENERATOR TGZ DEB)
-set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX}) # where Python looks, see above
+set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX}) # where Python looks, see drivers/python
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS

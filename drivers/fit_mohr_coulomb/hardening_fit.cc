@@ -16,7 +16,7 @@ constexpr Bounded exponent{0.01, 1};    // m
 constexpr Bounded ratio{0.005, 0.49};   // ν
 constexpr Bounded friction{2, 70};      // φ [degrees]
 constexpr Bounded dilation{0.5, 1.4};   // (90° + ψ)/90°: ψ may be negative
-constexpr Bounded hardening{1e-6, 0.3}; // a
+constexpr Bounded hardening{1e-5, 0.3}; // a
 
 fe::MohrCoulombParameters continuum_of(const Vector &x, const fe::MohrCoulombParameters &start)
 {
@@ -35,14 +35,7 @@ fe::MohrCoulombParameters continuum_of(const Vector &x, const fe::MohrCoulombPar
 
 HardeningFit fit_hardening(const std::vector<SandTest> &tests, const fe::MohrCoulombParameters &start)
 {
-  const auto curves_at = [&](const Vector &x)
-  {
-    const fe::MohrCoulomb law(continuum_of(x, start));
-    std::vector<LawCurves> curves;
-    for (const SandTest &test : tests)
-      curves.push_back(curves_of(law, test));
-    return curves;
-  };
+  const auto curves_at = [&](const Vector &x) { return curves_of(fe::MohrCoulomb(continuum_of(x, start)), tests); };
   Vector best;
   double least = HUGE_VAL;
   for (const double strain : {1e-4, 1e-3, 1e-2})

@@ -20,6 +20,16 @@ struct LawCurves
 template <class Law>
 LawCurves curves_of(const Law &law, const SandTest &test);
 
+/// The same on each of some tests.
+template <class Law>
+std::vector<LawCurves> curves_of(const Law &law, const std::vector<SandTest> &tests)
+{
+  std::vector<LawCurves> curves;
+  for (const SandTest &test : tests)
+    curves.push_back(curves_of(law, test));
+  return curves;
+}
+
 /// Differences between a law and the grains, each over the root of the sum of squares of the grains' values over all
 /// tests, and over the root of the number of the kinds of values: of σ3/σ1 − 1, of the volumetric strain since the
 /// start of the shear, and of that since the start of the compression, where there is one. The root of the sum of their

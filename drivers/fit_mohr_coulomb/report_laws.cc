@@ -32,9 +32,7 @@ LawComparison compare_laws(const Ensemble &ensemble, const EnsembleFit &fit, con
   LawComparison laws;
   laws.tests = tests_of_laws(ensemble, parameters);
   laws.sand = fit_sand(laws.tests, parameters.sand);
-  const fe::MohrCoulomb material(fit.continuum);
-  for (const SandTest &test : laws.tests)
-    laws.mohr_coulomb.push_back(curves_of(material, test));
+  laws.mohr_coulomb = curves_of(fe::MohrCoulomb(fit.continuum), laws.tests);
   laws.mohr_coulomb_misfit = misfit(laws.tests, laws.mohr_coulomb);
   return laws;
 }

@@ -55,14 +55,6 @@ fe::HypoplasticParameters sand_of(const Vector &x, const SandFitParameters &give
   return sand;
 }
 
-std::vector<LawCurves> curves_of_all(const fe::HypoplasticSand &sand, const std::vector<SandTest> &tests)
-{
-  std::vector<LawCurves> curves;
-  for (const SandTest &test : tests)
-    curves.push_back(curves_of(sand, test));
-  return curves;
-}
-
 /// From the ends of the shears, which all go to the same critical state.
 fe::HypoplasticParameters first_guess(const std::vector<SandTest> &tests, const SandFitParameters &given)
 {
@@ -109,7 +101,7 @@ SandFit fit_sand(const std::vector<SandTest> &tests, const SandFitParameters &gi
   for (const SandTest &test : tests)
     initial += void_ratio_of(test.initial_solid_fraction()) / static_cast<double>(tests.size());
   const auto curves_at = [&](const Vector &x)
-  { return curves_of_all(fe::HypoplasticSand(sand_of(x, given, initial)), tests); };
+  { return curves_of(fe::HypoplasticSand(sand_of(x, given, initial)), tests); };
   fe::HypoplasticParameters guess = first_guess(tests, given);
   std::vector<std::pair<double, Vector>> starts;
   for (const double h_s : {1e8, 1e9, 1e10, 1e11, 1e12})

@@ -159,6 +159,57 @@ TEST_CASE("an edge that loses particles and becomes another one gives back the e
   CHECK(let_go + given_up + energy_of(edge, overlap) == Approx(before).epsilon(1e-12));
 }
 
+TEST_CASE("held edge: a spring slips at its strength, holds on from there, and books what the slip takes")
+{
+  const Overlap overlap = test::block(2, 20);
+  const LinearWeights weights(overlap, 2);
+  HeldEdge edge(overlap, weights.node, weights.particle, {.depth = 1., .stiffness = 1e15});
+  REQUIRE(edge.size() > 5);
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-1e-2, 1e-2);
+  for (auto &load : edge.dead_load)
+    load = Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+  const std::vector<double> fe(test::n_dofs(overlap), 0.);
+  std::vector<double> unused(fe.size(), 0.);
+  std::vector<Eigen::Vector3d> force(edge.size());
+  // Pulled along a straight line and back: elastic to the strength, then all of the rest slips.
+  const Eigen::Vector3d direction = Eigen::Vector3d(1., -2., 0.5).normalized();
+  const auto energy_at = [&](const double way)
+  {
+    const std::vector<Eigen::Vector3d> displacement(edge.size(), way * direction);
+    return edge.add_forces(displacement, fe, force, unused, HeldEdge::Loads::all);
+  };
+  constexpr double unit = 1e-7; // [m]
+  energy_at(unit);
+  std::vector<Eigen::Vector3d> spring(edge.size()); // at one unit
+  for (std::size_t k = 0; k < edge.size(); ++k)
+  {
+    spring[k] = force[k] - edge.dead_load[k];
+    edge.strength[k] = 2. * spring[k].norm();
+  }
+  energy_at(1.9 * unit);
+  CHECK(edge.slip_loss() == 0.);
+  const int n_steps = 1000;
+  double work = 0., before = energy_at(2. * unit), at_start = before;
+  for (int step = 1; step <= n_steps; ++step)
+  {
+    const std::vector<Eigen::Vector3d> earlier = force;
+    before = energy_at((2. + 3. * step / n_steps) * unit);
+    for (std::size_t k = 0; k < edge.size(); ++k)
+      work -= 0.5 * (earlier[k] + force[k]).dot(direction) * 3. * unit / n_steps; // done on the edge
+  }
+  for (std::size_t k = 0; k < edge.size(); ++k)
+    CHECK((force[k] - edge.dead_load[k] - 2. * spring[k]).norm() < 1e-9 * spring[k].norm());
+  CHECK(edge.slip_loss() > 0.);
+  CHECK(before - at_start + edge.slip_loss() == Approx(work).epsilon(1e-9));
+  // Back by one unit: elastic, from where it has slipped to.
+  const double lost = edge.slip_loss();
+  energy_at(4. * unit);
+  for (std::size_t k = 0; k < edge.size(); ++k)
+    CHECK((force[k] - edge.dead_load[k] - spring[k]).norm() < 1e-9 * spring[k].norm());
+  CHECK(edge.slip_loss() == lost);
+}
+
 TEST_CASE("the stable step of a coupling knows the stiffness of its edge and not its dead loads")
 {
   // So stiff that it alone counts, on nodes that do not move: omega^2 = V k / m for each grain by itself.
@@ -183,4 +234,5 @@ TEST_CASE("an edge that makes no sense is refused")
   CHECK_THROWS_WITH(EdgeParameters{.depth = -1.}.validate(), Catch::Contains("depth") && Catch::Contains("-1"));
   CHECK_THROWS_WITH(EdgeParameters{.stiffness = 0.}.validate(),
                     Catch::Contains("stiffness") && Catch::Contains("must be positive"));
+  CHECK_THROWS_WITH(EdgeParameters{.strength = -1.}.validate(), Catch::Contains("strength") && Catch::Contains("-1"));
 }
