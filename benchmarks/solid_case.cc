@@ -38,7 +38,7 @@ fe::ExplicitBody make_body(const SolidCase &what, const int n_along)
   fe::make_box({.subdivisions = {n, n, n}}, mesh);
   return fe::ExplicitBody(mesh, {.material = what.material,
                                  .degree = what.degree,
-                                 .hourglass = what.hourglass,
+                                 .kind = {.hourglass = what.hourglass},
                                  .initial_stress = what.initial_stress()});
 }
 

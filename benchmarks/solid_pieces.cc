@@ -136,7 +136,7 @@ using LawOfPoints = std::conditional_t<std::is_same_v<Law, LinearElastic> || std
 
 SolidPieces::SolidPieces(const SolidCase &of_case, MovingSolid &of_solid)
     : what(of_case), solid(of_solid), elements(make_solid_elements(of_solid.body.dof_handler(), of_case.material,
-                                                                   of_case.initial_stress(), of_case.hourglass))
+                                                                   of_case.initial_stress(), {of_case.hourglass}))
 {
   const auto present = solid.body.state();
   for (auto &[name, values] : elements->state())

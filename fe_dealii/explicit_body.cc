@@ -21,7 +21,7 @@ void ExplicitBodyParameters::validate() const
 {
   if (degree != 1 && degree != 2)
     reject("continuum: degree = ", degree, " of the elements is not allowed; choose 1 (8 nodes) or 2 (27 nodes)");
-  if (degree != 1 && hourglass == Hourglass::bending)
+  if (degree != 1 && kind.hourglass == Hourglass::bending)
     reject("continuum: degree = ", degree,
            " of the elements is not allowed with hourglass modes that bend, which only "
            "those of 8 nodes have; choose degree 1, or leave the modes: 27 nodes bend anyway");
@@ -68,13 +68,13 @@ std::unique_ptr<ElementGroup> make_elements(const dealii::DoFHandler<3> &dof_han
 {
   const std::map<unsigned int, Material> materials = materials_of(dof_handler, parameters);
   if (parameters.layers.size() < 2)
-    return make_solid_elements(dof_handler, materials.begin()->second, parameters.initial_stress, parameters.hourglass);
+    return make_solid_elements(dof_handler, materials.begin()->second, parameters.initial_stress, parameters.kind);
   std::vector<std::unique_ptr<ElementGroup>> groups;
   std::map<unsigned int, std::size_t> group_of_id;
   for (const auto &[id, material] : materials)
   {
     group_of_id[id] = groups.size();
-    groups.push_back(make_solid_elements(dof_handler, material, parameters.initial_stress, parameters.hourglass, id));
+    groups.push_back(make_solid_elements(dof_handler, material, parameters.initial_stress, parameters.kind, id));
   }
   std::vector<std::size_t> group_of_element;
   for (const auto &cell : dof_handler.active_cell_iterators())

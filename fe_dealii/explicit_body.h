@@ -26,12 +26,12 @@ namespace bergamo::fe
 struct ExplicitBodyParameters
 {
   Material material = MohrCoulomb(MohrCoulombParameters());
-  std::map<unsigned int, Material> layers;    ///< by the material ids of the mesh's cells; none: `material` everywhere
-  unsigned int degree = 1;                    ///< of the elements: 1 has 8 nodes, 2 has 27
-  Hourglass hourglass = Hourglass::at_points; ///< of elements of degree 1; those of 27 nodes bend anyway
-  std::array<double, 3> gravity{0, 0, 0};     ///< [m/s²]
-  double damping = 0;                         ///< α of the force −α m v [1/s], >= 0
-  InitialStress initial_stress;               ///< at rest; none if empty. See make_solid_elements()
+  std::map<unsigned int, Material> layers; ///< by the material ids of the mesh's cells; none: `material` everywhere
+  unsigned int degree = 1;                 ///< of the elements: 1 has 8 nodes, 2 has 27
+  SolidKind kind;                          ///< of the elements
+  std::array<double, 3> gravity{0, 0, 0};  ///< [m/s²]
+  double damping = 0;                      ///< α of the force −α m v [1/s], >= 0
+  InitialStress initial_stress;            ///< at rest; none if empty. See make_solid_elements()
   /// Mass scaling: an element whose own stable step at the start is shorter than this [s] gets its inertia multiplied
   /// until it is as long. Its weight stays. 0: none, >= 0. Slow motions stay true where mass_scaling().share is small;
   /// a body that stiffens later may need a shorter step again (stable_step()).

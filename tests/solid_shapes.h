@@ -16,7 +16,7 @@ enum class Shape
 inline void set_shape(ExplicitBodyParameters &parameters, const Shape shape)
 {
   parameters.degree = shape == Shape::quadratic ? 2 : 1;
-  parameters.hourglass = shape == Shape::bending ? Hourglass::bending : Hourglass::at_points;
+  parameters.kind.hourglass = shape == Shape::bending ? Hourglass::bending : Hourglass::at_points;
 }
 
 } // namespace bergamo::fe

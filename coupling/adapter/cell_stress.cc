@@ -80,7 +80,8 @@ std::vector<Mat3> of_continuum(const fe::ExplicitBody &body, const std::span<con
         corners.place[corner][d] = body.node_position()[node][d] + body.displacement()[3 * node + d];
       corners.share[corner] = weight_of_grains.empty() ? 1. : 1. - weight_of_grains[node];
     }
-    const Mat3 stress_volume = body.elements().volume(element) * tensor_of(body.state_of(element).stress);
+    const fe::ElementState state = body.state_of(element);
+    const Mat3 stress_volume = state.volume * tensor_of(state.stress);
     for (int part = 0; part < 64; ++part)
       add_part(cells, corners, part, stress_volume);
   }

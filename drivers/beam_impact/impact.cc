@@ -29,7 +29,7 @@ std::unique_ptr<fe::ExplicitBody> make_beam(const ImpactParameters &p)
   fe::ExplicitBodyParameters body;
   body.material = fe::LinearElastic(p.material);
   body.degree = p.element == BeamElement::quadratic ? 2 : 1;
-  body.hourglass = p.element == BeamElement::bending ? fe::Hourglass::bending : fe::Hourglass::at_points;
+  body.kind.hourglass = p.element == BeamElement::bending ? fe::Hourglass::bending : fe::Hourglass::at_points;
   auto beam = std::make_unique<fe::ExplicitBody>(
       fe::make_box_body({{-x, -y, -y}, {x, y, y}, {p.n_along, p.n_across, p.n_across}}, body));
   for (const Boundary end : {left, right})

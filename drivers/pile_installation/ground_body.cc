@@ -19,7 +19,8 @@ std::unique_ptr<fe::ExplicitBody> make_ground(const InstallationParameters &p, c
 
   fe::ExplicitBodyParameters body;
   body.material = material;
-  body.hourglass = p.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
+  body.kind.hourglass = p.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
+  body.kind.kinematics = p.large_strain ? fe::Kinematics::large_strain : fe::Kinematics::small_strain;
   body.gravity = {0., 0., -p.gravity()};
   body.damping = p.continuum_damping;
   body.initial_stress =

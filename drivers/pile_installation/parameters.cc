@@ -65,6 +65,8 @@ void InstallationParameters::declare(ParameterFile &file)
   file.add("Model", "growth", mesh.growth, "of the elements outwards, from one to the next", Range::between(1, 2));
   file.add("Model", "bending elements", bending_elements,
            "one law for each hexahedron, and a stiffness of its own where it bends");
+  file.add("Model", "large strain", large_strain,
+           "elements of the present shape, for soil that strains by more than a percent or turns; not of bending ones");
 
   file.add("Pile", "kind", pile.kind, "pile: from the box's front to its back, plane strain; cone: round",
            {{"pile", IntruderKind::pile}, {"cone", IntruderKind::cone}});
@@ -104,6 +106,8 @@ void InstallationParameters::validate() const
   n_steps();
   validate_pile();
   fields.validate(sand.box);
+  if (bending_elements && large_strain)
+    reject("Model/large strain has no bending elements; choose one of Model/bending elements and Model/large strain");
   if (is_two_scale())
     validate_plan();
 }

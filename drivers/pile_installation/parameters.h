@@ -43,6 +43,7 @@ struct InstallationParameters
   double growth_distance = 6e-3;                   ///< of the tip above the overlap that makes it so [m]
   GroundMesh mesh;
   bool bending_elements = false; ///< see fe::Hourglass
+  bool large_strain = false;     ///< see fe::Kinematics
 
   IntruderShape pile; ///< of kind pile or cone; a pile's breadth is the box's, see shape()
   double pile_friction = 0.1;

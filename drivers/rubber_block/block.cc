@@ -55,7 +55,7 @@ std::unique_ptr<fe::ExplicitBody> make_block(const BlockParameters &p, const Vec
   fe::ExplicitBodyParameters body;
   body.layers = {{rubber_id, fe::MooneyRivlin(p.rubber)}, {top_id, fe::NeoHooke(p.top)}};
   body.degree = p.element == BlockElement::quadratic ? 2 : 1;
-  body.hourglass = p.element == BlockElement::bending ? fe::Hourglass::bending : fe::Hourglass::at_points;
+  body.kind.hourglass = p.element == BlockElement::bending ? fe::Hourglass::bending : fe::Hourglass::at_points;
   body.gravity = {0., 0., -gravity};
   return std::make_unique<fe::ExplicitBody>(mesh, body);
 }

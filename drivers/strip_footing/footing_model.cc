@@ -52,7 +52,8 @@ fe::ExplicitBody make_ground(const FootingParameters &p)
   for (std::size_t k = 0; k < p.layer_depths.size(); ++k)
     body.layers.insert({static_cast<unsigned int>(k + 1), p.deeper[k].material()});
   body.degree = p.degree;
-  body.hourglass = p.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
+  body.kind.hourglass = p.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
+  body.kind.kinematics = p.large_strain ? fe::Kinematics::large_strain : fe::Kinematics::small_strain;
   body.gravity = {0, 0, -p.gravity};
   body.damping = p.damping;
   fe::GeostaticStress ground{.surface_height = 0,

@@ -41,6 +41,8 @@ void FootingParameters::declare(ParameterFile &file)
   file.add("Ground", "element degree", degree, "1: hexahedra of 8 nodes; 2: of 27 nodes", Range::between(1, 2));
   file.add("Ground", "bending elements", bending_elements,
            "of degree 1: one law for each, and a stiffness of their own where they bend");
+  file.add("Ground", "large strain", large_strain,
+           "elements of the present shape, for soil that strains by more than a percent or turns; not of bending ones");
   file.add("Ground", "gravity", gravity, "downwards; 0: weightless [m/s2]", Range::non_negative());
   file.add("Ground", "surcharge", surcharge, "on the whole surface [Pa]", Range::non_negative());
   file.add("Ground", "earth pressure at rest", earth_pressure_at_rest, "K0: horizontal over vertical stress at rest",
@@ -91,6 +93,9 @@ void FootingParameters::validate() const
   if (bending_elements && degree != 1)
     reject("Ground/bending elements are of degree 1, but Ground/element degree is ", degree,
            "; choose degree 1, or no bending elements: those of 27 nodes bend anyway");
+  if (large_strain && (bending_elements || degree != 1))
+    reject("Ground/large strain has elements of degree 1 alone that do not bend; choose Ground/element degree = 1 and no "
+           "Ground/bending elements, or small strain");
   if (!(limit_pressure().davis > 0))
     reject("the ground bears no footing: ",
            continuum.is_sand() ? "" : "Continuum/cohesion is " + short_text(continuum.mohr_coulomb.cohesion) + ", ",

@@ -47,6 +47,7 @@ struct FootingParameters
   unsigned int elements_across = 8; ///< under half of the footing
   unsigned int degree = 1;
   bool bending_elements = false;     ///< of degree 1
+  bool large_strain = false;         ///< see fe::Kinematics; of degree 1
   double gravity = 0;                ///< downwards [m/s²]
   double surcharge = 0;              ///< on the whole surface [Pa]
   double earth_pressure_at_rest = 1; ///< K0

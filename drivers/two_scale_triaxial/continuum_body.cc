@@ -66,7 +66,8 @@ std::unique_ptr<fe::ExplicitBody> make_continuum(const TriaxialParameters &param
   make_mesh(parameters, start.box, mesh);
   fe::ExplicitBodyParameters body;
   body.material = parameters.continuum.material();
-  body.hourglass = parameters.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
+  body.kind.hourglass = parameters.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;
+  body.kind.kinematics = parameters.large_strain ? fe::Kinematics::large_strain : fe::Kinematics::small_strain;
   body.damping = parameters.continuum_damping;
   body.initial_stress = initial_stress(parameters, start);
   return std::make_unique<fe::ExplicitBody>(mesh, body);

@@ -39,6 +39,8 @@ void TriaxialParameters::declare(ParameterFile &file)
            {{"linear", coupling::WeightShape::linear}, {"smooth", coupling::WeightShape::smooth}});
   file.add("Model", "bending elements", bending_elements,
            "one law for each hexahedron, and a stiffness of its own where it bends");
+  file.add("Model", "large strain", large_strain,
+           "elements of the present shape, for soil that strains by more than a percent or turns; not of bending ones");
 
   declare_distribution(file, "Grains", distribution);
   declare_grains(file, simulation);
@@ -90,6 +92,8 @@ void TriaxialParameters::validate() const
   }
   if (has_continuum())
   {
+    if (bending_elements && large_strain)
+      reject("Model/large strain has no bending elements; choose one of Model/bending elements and Model/large strain");
     continuum.validate();
     continuum.require_pressure(compression.pressure, "the cube has", "raise Packing/pressure");
   }

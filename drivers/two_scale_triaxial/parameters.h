@@ -33,6 +33,7 @@ struct TriaxialParameters
   InterfaceShape interface_shape = InterfaceShape::flat;
   coupling::WeightShape weight = coupling::WeightShape::linear;
   bool bending_elements = false; ///< see fe::Hourglass
+  bool large_strain = false;     ///< see fe::Kinematics
 
   dem::GrainDistribution distribution;
   dem::SimulationParameters simulation; ///< of the loading

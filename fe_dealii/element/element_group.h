@@ -17,6 +17,7 @@ namespace bergamo::fe
 struct ElementState
 {
   Stress stress{};           ///< Cauchy, mean over the volume [Pa]
+  double volume = 0;         ///< of which: present at large strain, in the reference configuration at small [m³]
   double yield_function = 0; ///< of the mean stress [Pa]; 0 without a yield surface
   double plastic_strain = 0; ///< mean of the accumulated equivalent strain [-]
   double energy_density = 0; ///< elastic_energy() over the reference volume, whatever the share [J/m³]

@@ -273,6 +273,7 @@ ElementState FiniteStrainBending<Law>::state_of(const std::size_t element, const
   for (int c = 0; c < 6; ++c)
     for (int k = 0; k < 3; ++k)
       state.stress[c] += piola[row[c]][k] * f[column[c]][k] / ratio;
+  state.volume = ratio * volume(element);
   state.energy_density = energy_[element] / volume(element);
   return state;
 }

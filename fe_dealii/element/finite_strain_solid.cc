@@ -94,6 +94,7 @@ ElementState FiniteStrainSolid<Law, n_nodes>::state_of(const std::size_t element
       state.stress[c] += sum(geometry.volume[pack] * kirchhoff) / present_volume;
     }
   }
+  state.volume = present_volume;
   state.energy_density = energy_[element] / volume(element);
   return state;
 }

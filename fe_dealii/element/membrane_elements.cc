@@ -95,6 +95,7 @@ ElementState MembraneElements::state_of(const std::size_t element, const double 
       for (int b = 0; b < 2; ++b)
         state.stress[c] +=
             sum(fraction * stress.second_piola[a][b] * stretch.along[a][row[c]] * stretch.along[b][column[c]]);
+  state.volume = volume(element); // it is incompressible
   state.energy_density = energy_[element] / volume(element);
   return state;
 }

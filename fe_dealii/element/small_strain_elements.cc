@@ -38,7 +38,7 @@ template <class Law>
 ElementState SmallStrainElements<Law>::state_of(const std::size_t element, const double *) const
 {
   ElementState state;
-  const double whole = volume(element);
+  const double whole = state.volume = volume(element);
   for (int point = 0; point < n_lanes_; ++point)
   {
     const double fraction = point_volume(element, point) / whole;

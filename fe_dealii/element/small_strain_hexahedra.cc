@@ -59,7 +59,7 @@ std::optional<std::size_t> SmallStrainHexahedra<Law>::compute_forces(const std::
       continue;
     double u[hexahedron::n_dofs];
     this->gather(e, displacement, u);
-    start_force_.add(e, u, this->force(e));
+    add_start_force(e, u);
   }
   return std::nullopt;
 }
@@ -88,8 +88,15 @@ void SmallStrainHexahedra<Law>::lumped_mass(const std::size_t element, double *m
 template <class Law>
 void SmallStrainHexahedra<Law>::stiffness(const std::size_t element, const double *, double *matrix) const
 {
+  elastic_stiffness(element, geometry_[element], matrix);
+}
+
+template <class Law>
+void SmallStrainHexahedra<Law>::elastic_stiffness(const std::size_t element, const hexahedron::Geometry &shape,
+                                                  double *matrix) const
+{
   hexahedron::stiffness(
-      geometry_[element],
+      shape,
       [&](const Points(&unit_strain)[6], Points(&stress)[6]) { elastic_stress(this->law(), unit_strain, stress); },
       matrix);
   const double factor = this->stiffness_factor(element);

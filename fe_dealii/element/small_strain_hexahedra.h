@@ -11,7 +11,7 @@ namespace bergamo::fe
 /// point: the mean dilatation would see their mean over the element alone, and ground at rest under its weight would be
 /// out of balance on a mesh that is no bricks. What that adds is a constant force.
 template <class Law>
-class SmallStrainHexahedra final : public SmallStrainElements<Law>
+class SmallStrainHexahedra : public SmallStrainElements<Law>
 {
 public:
   /// @param start see SmallStrainElements
@@ -29,6 +29,17 @@ public:
   std::vector<std::pair<std::string, std::span<double>>> state() override;
 
   const hexahedron::Geometry &geometry(const std::size_t element) const { return geometry_[element]; }
+
+protected:
+  /// Adds what the stresses at the start have beyond their means. @param u displacement of the element [m]
+  void add_start_force(const std::size_t element, const double *u)
+  {
+    if (!start_force_.is_empty())
+      start_force_.add(element, u, this->force(element));
+  }
+
+  /// stiffness() of an element of this shape.
+  void elastic_stiffness(std::size_t element, const hexahedron::Geometry &shape, double *matrix) const;
 
 private:
   double point_volume(const std::size_t element, const int point) const override

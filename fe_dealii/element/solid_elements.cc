@@ -4,6 +4,7 @@
 #include "fe_dealii/element/cell_nodes.h"
 #include "fe_dealii/element/finite_strain_bending.h"
 #include "fe_dealii/element/finite_strain_solid.h"
+#include "fe_dealii/element/large_strain_hexahedra.h"
 #include "fe_dealii/element/small_strain_bending.h"
 #include "fe_dealii/element/small_strain_hexahedra.h"
 #include "fe_dealii/element/small_strain_quadratic.h"
@@ -132,9 +133,8 @@ void add_start(const dealii::FEValues<3> &values, const Law &law, const InitialS
   }
 }
 
-template <class Law>
-std::unique_ptr<ElementGroup> small_strain_trilinear(const Cells &cells, const Law &law,
-                                                     const InitialStress &initial_stress)
+template <class Elements, class Law>
+std::unique_ptr<ElementGroup> trilinear(const Cells &cells, const Law &law, const InitialStress &initial_stress)
 {
   std::vector<typename KeptAtPoints<Law>::History> start;
   std::vector<hexahedron::Geometry> geometries;
@@ -154,8 +154,8 @@ std::unique_ptr<ElementGroup> small_strain_trilinear(const Cells &cells, const L
                   geometries.push_back(geometry);
                   add_start(values, law, initial_stress, start);
                 });
-  return std::make_unique<SmallStrainHexahedra<Law>>(law, cell_nodes(cells.dof_handler, cells.material_id),
-                                                     std::move(geometries), std::move(start));
+  return std::make_unique<Elements>(law, cell_nodes(cells.dof_handler, cells.material_id), std::move(geometries),
+                                    std::move(start));
 }
 
 bending::Corners corners_of(const dealii::FEValues<3> &values)
@@ -270,17 +270,26 @@ struct Maker
 {
   Cells cells;
   const InitialStress &initial_stress;
-  Hourglass hourglass;
+  SolidKind kind;
 
   unsigned int degree() const { return cells.dof_handler.get_fe().degree; }
 
   template <class Law>
   std::unique_ptr<ElementGroup> of_small_strain(const Law &law) const
   {
+    const bool bends = kind.hourglass == Hourglass::bending;
+    if (kind.kinematics == Kinematics::large_strain)
+    {
+      if (degree() == 2 || bends)
+        throw ConfigError(
+            "continuum: a law of small strain is carried through large strain by elements of 8 nodes alone "
+            "that do not bend; choose these, or small strain");
+      return trilinear<LargeStrainHexahedra<Law>>(cells, law, initial_stress);
+    }
     if (degree() == 2)
       return small_strain_quadratic(cells, law, initial_stress);
-    return hourglass == Hourglass::bending ? small_strain_bending(cells, law, initial_stress)
-                                           : small_strain_trilinear(cells, law, initial_stress);
+    return bends ? small_strain_bending(cells, law, initial_stress)
+                 : trilinear<SmallStrainHexahedra<Law>>(cells, law, initial_stress);
   }
 
   template <class Law>
@@ -291,7 +300,7 @@ struct Maker
                         "leave it out");
     if (degree() == 2)
       return finite_strain<Law, 27>(cells, law);
-    return hourglass == Hourglass::bending ? finite_strain_bending(cells, law) : finite_strain<Law, 8>(cells, law);
+    return kind.hourglass == Hourglass::bending ? finite_strain_bending(cells, law) : finite_strain<Law, 8>(cells, law);
   }
 
   std::unique_ptr<ElementGroup> operator()(const LinearElastic &law) const { return of_small_strain(law); }
@@ -305,10 +314,10 @@ struct Maker
 } // namespace
 
 std::unique_ptr<ElementGroup> make_solid_elements(const dealii::DoFHandler<3, 3> &dof_handler, const Material &material,
-                                                  const InitialStress &initial_stress, const Hourglass hourglass,
+                                                  const InitialStress &initial_stress, const SolidKind &kind,
                                                   const std::optional<unsigned int> material_id)
 {
-  return std::visit(Maker{{dof_handler, material_id}, initial_stress, hourglass}, material);
+  return std::visit(Maker{{dof_handler, material_id}, initial_stress, kind}, material);
 }
 
 } // namespace bergamo::fe

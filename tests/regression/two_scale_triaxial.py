@@ -128,11 +128,10 @@ class Results(Case):
 
     def test_continuum_closed_form(self):
         """A homogeneous elastic start: p = p0 - K eps_v while no yielding (Hooke)."""
-        for bending in ("false", "true"):
-            with self.subTest(bending):
-                out = self.tmp / bending
-                options = ["Model/kind=continuum", "Loading/axial strain=0", "Loading/volumetric strain change=0",
-                           f"Model/bending elements={bending}"]
+        for elements in ("Model/bending elements=false", "Model/bending elements=true", "Model/large strain=true"):
+            with self.subTest(elements):
+                out = self.tmp / elements.replace("/", "-")
+                options = ["Model/kind=continuum", "Loading/axial strain=0", "Loading/volumetric strain change=0", elements]
                 result = self.run_driver(out, *[x for o in options for x in ("--set", o)])
                 self.assertEqual(result.returncode, 0, result.stderr)
                 last = history(out)[-1]
@@ -157,15 +156,20 @@ class Results(Case):
             self.assertNotEqual(ratio, 1)
 
     def test_rotation(self):
-        """Weak ground that grains press into: its elements turn, which is told, and warned of beyond five degrees."""
-        out = self.tmp / "run"
-        options = ["Continuum/friction angle=1", "Continuum/dilation angle=0",
-                   "Continuum/cohesion=10", "Loading/axial strain=-0.1", "Loading/shear time=0.004"]
-        result = self.run_driver(out, *[x for o in options for x in ("--set", o)])
-        self.assertEqual(result.returncode, 0, result.stderr)
-        rotation = json.loads((out / "summary.json").read_text())["greatest_rotation_degrees"]
-        self.assertGreater(rotation, 1)
-        self.assertEqual("turned by" in result.stderr, rotation > 5, result.stderr)
+        """Weak ground that grains press into: its elements turn, which is told, and warned of beyond five degrees where
+        strains are small."""
+        for large in (False, True):
+            with self.subTest(large):
+                out = self.tmp / str(large)
+                options = ["Continuum/friction angle=1", "Continuum/dilation angle=0", "Continuum/cohesion=10",
+                           "Loading/axial strain=-0.1", "Loading/shear time=0.002", f"Model/large strain={str(large).lower()}"]
+                result = self.run_driver(out, *[x for o in options for x in ("--set", o)])
+                self.assertEqual(result.returncode, 0, result.stderr)
+                figures = json.loads((out / "summary.json").read_text())
+                self.assertGreater(figures["greatest_rotation_degrees"], 1)
+                self.assertLess(figures["energy_residual"], 1e-5)
+                self.assertEqual("turned by" in result.stderr, not large and figures["greatest_rotation_degrees"] > 5,
+                                 result.stderr)
 
     def test_continuum_of_sand(self):
         """Isotropic compression of hypoplastic sand, integrated apart from the program. Slow and damped: small vibrations

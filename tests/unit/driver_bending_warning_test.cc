@@ -17,7 +17,7 @@ namespace
 std::string warning_of(const fe::Hourglass hourglass)
 {
   fe::ExplicitBodyParameters parameters;
-  parameters.hourglass = hourglass;
+  parameters.kind.hourglass = hourglass;
   const fe::ExplicitBody plate = fe::make_box_body({{0, 0, 0}, {8, 4, 1}, {4, 2, 1}}, parameters);
   std::ostringstream stream;
   driver::ProgressOptions options;

@@ -22,7 +22,7 @@ ExplicitBody column(const Hourglass hourglass)
 {
   ExplicitBodyParameters parameters;
   parameters.material = LinearElastic({.young_modulus = 1e7, .poisson_ratio = 0.2, .density = 2000});
-  parameters.hourglass = hourglass;
+  parameters.kind.hourglass = hourglass;
   parameters.gravity = {0, 0, -10};
   return make_box_body({{0, 0, 0}, {1, 1, top}, {1, 1, 3}}, parameters);
 }

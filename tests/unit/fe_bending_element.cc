@@ -36,7 +36,7 @@ ExplicitBodyParameters bending_of(const Material &material)
 {
   ExplicitBodyParameters parameters;
   parameters.material = material;
-  parameters.hourglass = Hourglass::bending;
+  parameters.kind.hourglass = Hourglass::bending;
   return parameters;
 }
 
@@ -324,7 +324,7 @@ TEST_CASE("bending elements: the lumped mass is that of the elements with points
 {
   ExplicitBodyParameters parameters = bending_of(elastic(0.3));
   ExplicitBody bending = box(parameters, {1, 1.3, 0.8}, 3, 0.2);
-  parameters.hourglass = Hourglass::at_points;
+  parameters.kind.hourglass = Hourglass::at_points;
   ExplicitBody at_points = box(parameters, {1, 1.3, 0.8}, 3, 0.2);
   const auto check = [&]
   {

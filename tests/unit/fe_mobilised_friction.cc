@@ -225,7 +225,7 @@ TEST_CASE("Mobilised friction: every kind of element hardens from its stress at 
   SECTION("mean dilatation") {}
   SECTION("bending")
   {
-    parameters.hourglass = Hourglass::bending;
+    parameters.kind.hourglass = Hourglass::bending;
   }
   SECTION("quadratic")
   {

@@ -19,7 +19,7 @@ ExplicitBody plate(const BoxMeshParameters &shape, const Hourglass hourglass = H
   ExplicitBodyParameters parameters;
   parameters.material = LinearElastic({});
   parameters.degree = degree;
-  parameters.hourglass = hourglass;
+  parameters.kind.hourglass = hourglass;
   return make_box_body(shape, parameters);
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("elements that bend are in no thin layer", "[fe]")
   ExplicitBodyParameters parameters;
   parameters.material = NeoHooke({});
   CHECK(thin_layers(make_box_body(of_layers(1), parameters)).n_elements == 8);
-  parameters.hourglass = Hourglass::bending;
+  parameters.kind.hourglass = Hourglass::bending;
   CHECK(thin_layers(make_box_body(of_layers(1), parameters)).n_elements == 0);
 }
 

@@ -38,7 +38,7 @@ ExplicitBody beam(const Material &material, const unsigned int n_elements)
 {
   ExplicitBodyParameters parameters;
   parameters.material = material;
-  parameters.hourglass = Hourglass::bending;
+  parameters.kind.hourglass = Hourglass::bending;
   return make_box_body({{0, -0.5, -0.5}, {length, 0.5, 0.5}, {n_elements, 1, 1}}, parameters);
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("bending elements: a cantilever swings at the frequency of beam theory
   // rotation of the sections take (about 3 (h/L)² = 0.7 %), within 2 %.
   ExplicitBodyParameters parameters;
   parameters.material = both(0.3)[GENERATE(0, 1)];
-  parameters.hourglass = Hourglass::bending;
+  parameters.kind.hourglass = Hourglass::bending;
   constexpr double span = 20;
   ExplicitBody body = make_box_body({{0, -0.5, -0.5}, {span, 0.5, 0.5}, {10, 1, 1}}, parameters);
   for (int i = 0; i < 3; ++i)
@@ -276,7 +276,7 @@ struct LayeredBeam
   ExplicitBody body(const unsigned int n_elements, const Law &law) const
   {
     ExplicitBodyParameters parameters;
-    parameters.hourglass = Hourglass::bending;
+    parameters.kind.hourglass = Hourglass::bending;
     dealii::Triangulation<3> mesh;
     const dealii::Point<3> low(0, -0.5, 0), high(length, 0.5, top.back());
     dealii::GridGenerator::subdivided_hyper_rectangle(mesh, steps(n_elements), low, high, true);

@@ -78,7 +78,7 @@ Errors errors_of(const unsigned int degree, const Hourglass hourglass, const uns
 {
   ExplicitBodyParameters parameters;
   parameters.degree = degree;
-  parameters.hourglass = hourglass;
+  parameters.kind.hourglass = hourglass;
   parameters.material = LinearElastic({.young_modulus = young, .poisson_ratio = poisson_ratio, .density = 1000});
   dealii::Triangulation<3> mesh;
   make_box({{0, -depth / 2, 0}, {length, depth / 2, thickness}, {4 * n_depth, n_depth, 1}}, mesh);

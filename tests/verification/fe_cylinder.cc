@@ -39,7 +39,7 @@ ExplicitBody cylinder(const Material &material, const unsigned int degree, const
   ExplicitBodyParameters parameters;
   parameters.material = material;
   parameters.degree = degree;
-  parameters.hourglass = hourglass;
+  parameters.kind.hourglass = hourglass;
   parameters.damping = damping;
   return ExplicitBody(mesh, parameters);
 }

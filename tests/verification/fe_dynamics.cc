@@ -54,7 +54,7 @@ struct Everything
   static ExplicitBody make(const bool shared = true, const Hourglass hourglass = Hourglass::at_points)
   {
     ExplicitBodyParameters parameters;
-    parameters.hourglass = hourglass;
+    parameters.kind.hourglass = hourglass;
     parameters.gravity = {0.3, 0, -9.81};
     parameters.damping = 20;
     parameters.initial_stress = uniform_pressure(2000);

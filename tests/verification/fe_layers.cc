@@ -213,7 +213,7 @@ TEST_CASE("layers of more elements than are computed at a time are the homogeneo
           "[fe]")
 {
   ExplicitBodyParameters parameters;
-  parameters.hourglass = Hourglass::bending;
+  parameters.kind.hourglass = Hourglass::bending;
   parameters.material = LinearElastic(soft);
   parameters.gravity = {0, 0, -gravity};
   const dealii::Triangulation<3> mesh = divided_box({{0, 0, 0}, {1, 1, 1}, {5, 5, 6}}, 0, 0.3); // 60 and 90 elements

@@ -99,7 +99,7 @@ Errors static_errors(const unsigned int degree, const Hourglass hourglass, const
   ExplicitBodyParameters parameters;
   parameters.material = law;
   parameters.degree = degree;
-  parameters.hourglass = hourglass;
+  parameters.kind.hourglass = hourglass;
   ExplicitBody body(mesh, parameters);
 
   const Displacement exact;

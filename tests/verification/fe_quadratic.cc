@@ -117,7 +117,7 @@ TEST_CASE("a sand whose stiffness grows with the pressure keeps the account of i
     ExplicitBodyParameters parameters;
     parameters.material = MohrCoulomb({.young_modulus = 60e6, .reference_pressure = 1e5});
     parameters.degree = degree;
-    parameters.hourglass = hourglass;
+    parameters.kind.hourglass = hourglass;
     parameters.initial_stress = uniform_pressure(2e4);
     ExplicitBody body = body_of({{0, 0, 0}, {1, 1, 1}, {4, 4, 3}}, parameters, 0.15);
     for (unsigned int id = 0; id < 5; ++id)

@@ -213,7 +213,7 @@ TEST_CASE("the stable step of a body of large strain is followed to some percent
       {
         ExplicitBodyParameters parameters;
         parameters.material = MooneyRivlin({});
-        parameters.hourglass = Hourglass::bending;
+        parameters.kind.hourglass = Hourglass::bending;
         return std::make_unique<ExplicitBody>(make_box_body({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}, parameters));
       },
       []

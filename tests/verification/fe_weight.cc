@@ -120,7 +120,7 @@ TEST_CASE("ground at rest under its K0 stress on a distorted mesh starts and sta
     return;
   CAPTURE(degree, bends);
   ExplicitBodyParameters parameters = heavy(MohrCoulomb(sand), degree);
-  parameters.hourglass = bends ? Hourglass::bending : Hourglass::at_points;
+  parameters.kind.hourglass = bends ? Hourglass::bending : Hourglass::at_points;
   parameters.initial_stress = geostatic_stress(
       {.surface_height = 4, .unit_weight = sand.density * gravity, .earth_pressure_at_rest = 0.5, .surcharge = 5e3});
   ExplicitBody body = distorted_box({{0, 0, 0}, {2, 3, 4}, {2, 3, 4}}, parameters);
