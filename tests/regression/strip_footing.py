@@ -63,9 +63,9 @@ class Results(Case):
         self.assertLess(pressure[-1] / pressure[-6], 1.01)  # a plateau
 
     def test_large_strain(self):
-        """At a settlement of some percent of the width the present shape tells little: the same limit within 3 %."""
+        """At a settlement of some percent of the width the present shape tells little: the same limit within 5 %."""
         limits = [self.figures(f"large_{large}", [f"Ground/large strain={large}"]) for large in ("false", "true")]
-        self.assertAlmostEqual(limits[1]["bearing_over_limit"] / limits[0]["bearing_over_limit"], 1, delta=0.03)
+        self.assertAlmostEqual(limits[1]["bearing_over_limit"] / limits[0]["bearing_over_limit"], 1, delta=0.05)
         self.assertNotEqual(limits[1]["bearing_over_limit"], limits[0]["bearing_over_limit"])
         self.assertLess(limits[1]["energy_residual"], 1e-6)
 
