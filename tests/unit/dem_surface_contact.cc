@@ -169,7 +169,7 @@ TEST_CASE("forces on a body are the derivatives of one continuous energy", "[sur
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0., 1.);
   int n_bent = 0;
-  for (int k = 0; k < 300; ++k)
+  for (int k = 0; k < 120; ++k)
   {
     // From nearly flat, where several places are touched at once, to rough.
     const double rough = std::pow(10., -4. + 3.5 * unit(random));
@@ -207,7 +207,7 @@ TEST_CASE("forces on a body are the derivatives of one continuous energy", "[sur
     }
     n_bent += n_places > 1;
   }
-  REQUIRE(n_bent > 20); // and with places that count against one another among them
+  REQUIRE(n_bent > 8); // and with places that count against one another among them
 }
 
 TEST_CASE("closed paths around edges and vertices give and take nothing: the field of forces has no curl", "[surface]")
@@ -306,10 +306,13 @@ TEST_CASE("a body that touches a convex polyhedron does so once, where it is lea
       return std::pair(value, best);
     };
     const auto at = [&](const double distance) { return make_pose(shape, distance * towards, orientation); };
-    double distance = 6.; // from outside to a slight overlap
-    while (overlap_along(at(distance), least(at(distance)).second) < 0.)
-      distance -= 0.05;
-    const BodyPose body = at(distance);
+    double touching = 0., apart = 6.; // to a slight overlap
+    while (apart - touching > 0.05)
+    {
+      const double middle = 0.5 * (touching + apart);
+      (least(at(middle)).first < 0. ? apart : touching) = middle;
+    }
+    const BodyPose body = at(touching);
     const auto places = find_surface_places(body, surface.view(), surface.all_faces());
     const double overlap = least(body).first;
     REQUIRE(places.size() == 1);
