@@ -188,6 +188,32 @@ TEST_CASE("soil at large strain: a rotation turns the stress and asks for no for
   }
 }
 
+TEST_CASE("soil at large strain: the pressure of an element goes with the logarithm of its volume, however it warps",
+          "[fe]")
+{
+  ExplicitBody body = box(elastic, Kinematics::large_strain, 0.2, 2);
+  std::vector<double> way(3 * body.n_nodes());
+  for (std::size_t dof = 0; dof < way.size(); ++dof)
+    way[dof] = 0.12 * std::sin(1.7 * double(dof) + 0.3);
+  constexpr int steps = 200;
+  for (int step = 1; step <= steps; ++step)
+  {
+    for (std::size_t dof = 0; dof < way.size(); ++dof)
+      body.displacement()[dof] = way[dof] * step / steps;
+    body.compute_internal_force();
+  }
+  double largest = 0;
+  for (std::size_t element = 0; element < body.n_elements(); ++element)
+  {
+    const ElementState state = body.state_of(element);
+    const double ratio = state.volume / body.elements().volume(element);
+    const double mean = (state.stress[0] + state.stress[1] + state.stress[2]) / 3 * ratio / elastic.bulk_modulus();
+    CHECK(mean == Approx(std::log(ratio)).margin(1e-5));
+    largest = std::max(largest, std::abs(std::log(ratio)));
+  }
+  CHECK(largest > 0.02);
+}
+
 TEST_CASE("soil at small strain is the same in elements of small and of large strain", "[fe]")
 {
   const Tensor3<double> direction{{{-1, 0.4, 0.2}, {0.1, 0.5, -0.3}, {0.2, 0.1, 0.3}}};
