@@ -170,7 +170,7 @@ TEST_CASE("forces may be asked for, and all be read, as often as one likes", "[f
     for (unsigned int i = 0; i < 3; ++i)
       body->prescribe_velocity(corner, i);
     const double dt = 0.2 * stable_step(*body).time_step;
-    for (int k = 0; k < 400; ++k)
+    for (int k = 0; k < 150; ++k)
     {
       const auto force = [&]
       {
