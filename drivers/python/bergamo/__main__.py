@@ -12,6 +12,7 @@ from . import open_run
 from .compare import check_columns, compare, draw
 from .errors import Error
 from .export import DEFAULT, KINDS, export, scene_of
+from .run import Run
 from .show import show
 from .watch import Watch
 
@@ -27,6 +28,8 @@ def parser() -> argparse.ArgumentParser:
     two.add_argument("run", metavar="RUN")
     two.add_argument("--interval", type=float, default=1., metavar="SECONDS", help="between two looks (default 1)")
     two.add_argument("--columns", default="", metavar="A,B", help="of the history, to show (default: the first four)")
+    two.add_argument("--page", action="store_true", help="show it in the browser of this machine instead, until Ctrl-C")
+    two.add_argument("--port", type=int, metavar="N", help="of the page (default: any that is free)")
     three = commands.add_parser("compare", help="draw two runs over one another and print how they differ")
     three.add_argument("runs", nargs=2, metavar="RUN")
     three.add_argument("--output", default="comparison.png", metavar="PNG", help="default comparison.png")
@@ -50,7 +53,13 @@ def run_command(words: argparse.Namespace) -> int:
     elif words.command == "watch":
         if not words.interval > 0:
             raise Error(f"--interval is {words.interval}; give a number of seconds above 0")
-        return FINISHED if Watch(sys.stdout, words.interval, columns).follow(open_run(words.run)) else INTERRUPTED
+        if words.port is not None and not words.page:
+            raise Error(f"--port {words.port} is of the page; add --page")
+        run, look = open_run(words.run), Watch(sys.stdout, words.interval, columns)
+        if words.page:
+            serve_page(run, look, words.port or 0)
+            return FINISHED
+        return FINISHED if look.follow(run) else INTERRUPTED
     elif words.command == "export":
         kinds = [kind for kind in words.kinds.split(",") if kind]
         scene = replace(scene_of(words.source, words.picture), steps=words.steps)
@@ -62,6 +71,17 @@ def run_command(words: argparse.Namespace) -> int:
         print(compare(first, second))
         print(draw(first, second, words.output, columns))
     return FINISHED
+
+
+def serve_page(run: Run, look: Watch, port: int) -> None:
+    """Until Ctrl-C, which is how it ends."""
+    from .page import Looks, PageServer  # only here: http.server costs some milliseconds
+    with PageServer(Looks(run, look), port, look.interval) as server:
+        print(f"{run.folder}: {server.address} (Ctrl-C ends it)", flush=True)
+        try:
+            server.serve_forever()
+        except KeyboardInterrupt:
+            print()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
