@@ -26,25 +26,26 @@ SlideParameters::SlideParameters()
 void SlideParameters::declare(ParameterFile &file)
 {
   file.add("Track", "horizontal distance", run, "of the centre's path from its start to its end [m]",
-           Range::positive());
-  file.add("Track", "drop", drop, "of the end below the start [m]", Range::positive());
+           Range::positive().usual(1e-3, 100));
+  file.add("Track", "drop", drop, "of the end below the start [m]", Range::positive().usual(1e-3, 100));
   file.add("Track", "facets", facets,
            "numbers of flat pieces, each passed in the same time; every one is run on both curves, the plane and the "
            "cycloid",
            Range::between(1, most_facets));
   file.add("Track", "friction", friction,
            "0: the sphere slides; else it has to be large enough for it to roll down the plane", Range::non_negative());
-  file.add("Track", "gravity", gravity, "downwards [m/s2]", Range::positive());
+  file.add("Track", "gravity", gravity, "downwards [m/s2]", Range::positive().usual(0.1, 1e4));
 
-  file.add("Sphere", "radius", radius, "[m]", Range::positive());
-  file.add("Sphere", "Young's modulus", simulation.grain().young_modulus, "the track is rigid [Pa]", Range::positive());
+  file.add("Sphere", "radius", radius, "[m]", Range::positive().usual(1e-5, 1));
+  file.add("Sphere", "Young's modulus", simulation.grain().young_modulus, "the track is rigid [Pa]",
+           Range::positive().usual(1e6, 1e12));
   file.add("Sphere", "Poisson's ratio", simulation.grain().poisson_ratio, "",
            {.lowest = 0, .highest = 0.5, .highest_included = false});
-  file.add("Sphere", "density", simulation.grain().density, "[kg/m3]", Range::positive());
+  file.add("Sphere", "density", simulation.grain().density, "[kg/m3]", Range::positive().usual(500, 2e4));
   file.add("Sphere", "relaxation time", simulation.with_walls().relaxation_time,
            "A of the viscoelastic damping between sphere and track [s]", Range::non_negative());
   file.add("Sphere", "damping ratio", simulation.with_walls().damping_ratio,
-           "dashpot beside it, share of critical damping", Range::between(0, 10));
+           "dashpot beside it, share of critical damping", Range::between(0, 10).usual(0, 1));
 
   file.add("Output", "time step", simulation.time_step, "[s]", Range::positive());
   output.declare(file, "the sphere is");

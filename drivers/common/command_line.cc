@@ -14,6 +14,15 @@ namespace bergamo::driver
 namespace
 {
 
+/// What stands behind --help: nothing, a topic, or, as of old, the parameter file that comes next.
+void take_topic(const std::string &word, CommandLine &command_line)
+{
+  if (word.ends_with(".prm"))
+    command_line.parameter_files.emplace_back(word);
+  else
+    command_line.help_topic = word;
+}
+
 void add_options(CLI::App &app, CommandLine &command_line)
 {
   app.add_option("file.prm", command_line.parameter_files,
@@ -45,6 +54,9 @@ std::string footer(const std::string &name)
          "  " +
          name +
          " --print-parameters > my.prm\n"
+         "  " +
+         name + " " + name +
+         ".prm --help Output/samples\n"
          "  " +
          name + " " + name + ".prm continuum.prm\n  " + name + " " + name +
          ".prm --set \"Run/seed=2\" --output results/second --threads 2\n\n"
@@ -90,7 +102,7 @@ void check_files(const CommandLine &command_line, const std::string &driver)
 {
   namespace fs = std::filesystem;
   const std::vector<fs::path> &files = command_line.parameter_files;
-  if (files.empty() && !command_line.print_parameters)
+  if (files.empty() && !command_line.print_parameters && command_line.help_topic.empty())
     throw ConfigError("no parameter file given; use '" + driver + " file.prm', and '" + driver +
                       " --print-parameters' to write one");
   for (const fs::path &file : files)
@@ -129,7 +141,12 @@ std::optional<CommandLine> parse_command_line(const int argc, const char *const 
   CommandLine command_line;
   CLI::App app(description.summary, description.name);
   app.footer("\n" + footer(description.name));
-  app.set_help_flag("--help,-h", "Explain the job and its options, then stop");
+  app.set_help_flag();
+  std::string topic;
+  const CLI::Option *help =
+      app.add_option("--help,-h", topic, "Explain the job, or a parameter or a section of them, then stop")
+          ->type_name("[Section/Name]")
+          ->expected(0, 1);
   app.get_formatter()->column_width(34);
   app.allow_extras();
   add_options(app, command_line);
@@ -137,14 +154,16 @@ std::optional<CommandLine> parse_command_line(const int argc, const char *const 
   {
     app.parse(argc, argv);
   }
-  catch (const CLI::CallForHelp &)
-  {
-    std::cout << app.help();
-    return std::nullopt;
-  }
   catch (const CLI::ParseError &error)
   {
     throw ConfigError(std::string(error.what()) + "; see '" + description.name + " --help'");
+  }
+  if (help->count() > 0)
+    take_topic(topic, command_line);
+  if (help->count() > 0 && command_line.help_topic.empty())
+  {
+    std::cout << app.help();
+    return std::nullopt;
   }
   const std::vector<std::string> unknown = app.remaining();
   if (!unknown.empty())

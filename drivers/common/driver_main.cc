@@ -4,10 +4,13 @@
 #include "drivers/common/dealii_start.h"
 #include "drivers/common/interrupt.h"
 #include "drivers/common/mpi_start.h"
+#include "drivers/common/parameter_advice.h"
+#include "drivers/common/parameter_help.h"
 #include "fe_dealii/mpi_session.h"
 
 #include <omp.h>
 
+#include <exception>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -79,6 +82,36 @@ int run_with_mpi(const std::function<int()> &job)
   return guarded(job); // inside, so that MPI ends after the message
 }
 
+namespace
+{
+
+void read_files_and_settings(ParameterFile &parameters, const CommandLine &command_line)
+{
+  for (const std::filesystem::path &file : command_line.parameter_files)
+    parameters.read(file);
+  for (const std::string &setting : command_line.settings)
+    parameters.set(setting);
+}
+
+/// A mistake in the files does not keep from the explanation, which may be what mends it.
+void explain(ParameterFile &parameters, const CommandLine &command_line)
+{
+  std::exception_ptr mistake;
+  try
+  {
+    read_files_and_settings(parameters, command_line);
+  }
+  catch (const ConfigError &)
+  {
+    mistake = std::current_exception();
+  }
+  std::cout << explained(parameters.entries(), command_line.help_topic);
+  if (mistake)
+    std::rethrow_exception(mistake);
+}
+
+} // namespace
+
 bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)
 {
   if (command_line.print_parameters)
@@ -86,11 +119,24 @@ bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)
     std::cout << parameters.default_text();
     return false;
   }
-  for (const std::filesystem::path &file : command_line.parameter_files)
-    parameters.read(file);
-  for (const std::string &setting : command_line.settings)
-    parameters.set(setting);
+  if (!command_line.help_topic.empty())
+  {
+    explain(parameters, command_line);
+    return false;
+  }
+  read_files_and_settings(parameters, command_line);
   return true;
+}
+
+CommandLine warned_of(const ParameterFile &parameters, const CommandLine &command_line,
+                      const std::vector<std::string> &further)
+{
+  CommandLine warned = command_line;
+  warned.warnings = unusual_values(parameters.entries());
+  warned.warnings.insert(warned.warnings.end(), further.begin(), further.end());
+  for (const std::string &warning : warned.warnings)
+    std::cerr << "warning: " << warning << '\n';
+  return warned;
 }
 
 } // namespace bergamo::driver

@@ -30,9 +30,14 @@ int run_driver(int argc, const char *const *argv, const DriverDescription &descr
 int run_with_mpi(const std::function<int()> &job);
 
 /// Reads the parameter files in the order given, each over those before it, and then the --set options of the command
-/// line. Returns false when only the defaults were
+/// line. Returns false when only the defaults or the explanation of some were
 /// asked for; they are then on standard output. Throws ConfigError for the user's mistakes.
 bool read_parameters(ParameterFile &parameters, const CommandLine &command_line);
+
+/// The command line with what is unusual in the parameters, which is also told on standard error.
+/// @param further warnings of the driver
+CommandLine warned_of(const ParameterFile &parameters, const CommandLine &command_line,
+                      const std::vector<std::string> &further = {});
 
 /// The job of most drivers: reads and checks its parameters, then has a Job made of them go. A set of Parameters has
 /// declare() and validate(), and where some of them ask for MPI needs_mpi(), see run_with_mpi(); a Job is made of it,
@@ -47,7 +52,8 @@ int run_job(const std::string &title, const CommandLine &command_line)
   if (!read_parameters(file, command_line))
     return done;
   parameters.validate();
-  const auto go = [&] { return Job(parameters, command_line, file.resolved_text()).go(); };
+  const CommandLine warned = warned_of(file, command_line);
+  const auto go = [&] { return Job(parameters, warned, file.resolved_text()).go(); };
   if constexpr (requires { parameters.needs_mpi(); })
     return parameters.needs_mpi() ? run_with_mpi(go) : go();
   else

@@ -29,13 +29,14 @@ void GradingParameters::declare(ParameterFile &file)
            {{"gaussian", SizeKind::gaussian}, {"uniform", SizeKind::uniform}, {"sieves", SizeKind::sieves}});
   declare_distribution(file, "Grains/Gaussian", gaussian);
   file.add("Grains/Uniform", "smallest diameter", uniform.smallest_diameter, "of the sphere of equal volume [m]",
-           Range::positive());
-  file.add("Grains/Uniform", "largest diameter", uniform.largest_diameter, "[m]", Range::positive());
-  file.add("Grains/Sieves", "d10", d10, "opening that a tenth of the mass passes [m]", Range::positive());
-  file.add("Grains/Sieves", "d50", d50, "[m]", Range::positive());
-  file.add("Grains/Sieves", "d60", d60, "[m]", Range::positive());
+           Range::positive().usual(1e-6, 0.1));
+  file.add("Grains/Uniform", "largest diameter", uniform.largest_diameter, "[m]", Range::positive().usual(1e-6, 0.1));
+  file.add("Grains/Sieves", "d10", d10, "opening that a tenth of the mass passes [m]",
+           Range::positive().usual(1e-6, 0.1));
+  file.add("Grains/Sieves", "d50", d50, "[m]", Range::positive().usual(1e-6, 0.1));
+  file.add("Grains/Sieves", "d60", d60, "[m]", Range::positive().usual(1e-6, 0.1));
   file.add("Grains/Shapes", "elongation", uniform.shapes.elongation,
-           "largest ratio of two half-axes, for uniform sizes and sieves", Range::at_least(1));
+           "largest ratio of two half-axes, for uniform sizes and sieves", Range::at_least(1).usual(1, 10));
   file.add("Grains/Shapes", "angularity", uniform.shapes.angularity,
            "largest distance of an exponent from 1, for uniform sizes and sieves",
            {.lowest = 0, .highest = 1, .highest_included = false});

@@ -115,10 +115,10 @@ Rows along(const IntruderShape &s, const double height, const double overhang)
 
 void IntruderShape::declare(ParameterFile &file, const std::string &section)
 {
-  file.add(section, "width", width, "along x; a cone's diameter [m]", Range::positive());
+  file.add(section, "width", width, "along x; a cone's diameter [m]", Range::positive().usual(1e-4, 10));
   file.add(section, "tip angle", tip_angle, "full angle of the tip; 180: flat [degrees]", Range::between(10, 180));
   file.add(section, "facets", n_facets, "around a cone", Range::between(6, 1000));
-  file.add(section, "triangle size", triangle_size, "at most [m]", Range::positive());
+  file.add(section, "triangle size", triangle_size, "at most [m]", Range::positive().usual(1e-4, 10));
 }
 
 double IntruderShape::tip_height() const

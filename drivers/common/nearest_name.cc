@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <vector>
+#include <utility>
 
 namespace bergamo::driver
 {
@@ -41,18 +41,32 @@ int name_distance(const std::string_view one, const std::string_view other)
 
 std::string nearest_name(const std::string_view wrong, const std::span<const std::string> known)
 {
-  std::string nearest;
-  int smallest = std::max(2, static_cast<int>(wrong.size()) / 3) + 1;
+  const std::vector<std::string> nearest = nearest_names(wrong, known);
+  return nearest.empty() ? "" : nearest.front();
+}
+
+std::vector<std::string> nearest_names(const std::string_view wrong, const std::span<const std::string> known)
+{
+  constexpr std::size_t most = 3;
+  const int allowed = std::max(2, static_cast<int>(wrong.size()) / 3);
+  std::vector<std::pair<int, std::string>> near;
   for (const std::string &name : known)
-  {
-    const int distance = name_distance(wrong, name);
-    if (distance < smallest && distance < static_cast<int>(name.size()))
-    {
-      smallest = distance;
-      nearest = name;
-    }
-  }
-  return nearest;
+    if (const int distance = name_distance(wrong, name);
+        distance <= allowed && distance < static_cast<int>(name.size()))
+      near.emplace_back(distance, name);
+  std::stable_sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(most, near.size()); ++k)
+    names.push_back(near[k].second);
+  return names;
+}
+
+std::string either_of(const std::span<const std::string> names)
+{
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    text += (k == 0 ? "'" : k + 1 == names.size() ? " or '" : ", '") + names[k] + "'";
+  return text;
 }
 
 std::string did_you_mean(const std::string_view wrong, const std::span<const std::string> known)

@@ -78,7 +78,8 @@ ParameterBinding bind_number(double &value, const Range &range)
   return {.refusal = [range](const std::string &text) { return number_refusal(text, range); },
           .assign = [&value](const std::string &text) { value = *parse_number(text); },
           .text = [&value] { return exact_text(value); },
-          .allowed = "a number" + range.text()};
+          .allowed = "a number" + range.text(),
+          .range = range};
 }
 
 ParameterBinding bind_numbers(const std::span<double> values, const Range &range)
@@ -100,7 +101,8 @@ ParameterBinding bind_numbers(const std::span<double> values, const Range &range
                            [](const std::string &part) { return *parse_number(part); });
           },
           .text = [values] { return numbers_text(values); },
-          .allowed = count + " numbers" + range.text() + ", separated by commas"};
+          .allowed = count + " numbers" + range.text() + ", separated by commas",
+          .range = range};
 }
 
 ParameterBinding bind_number_list(std::vector<double> &values, const Range &range)
@@ -114,7 +116,8 @@ ParameterBinding bind_number_list(std::vector<double> &values, const Range &rang
               values.push_back(*parse_number(part));
           },
           .text = [&values] { return numbers_text(values); },
-          .allowed = "numbers" + range.text() + ", separated by commas"};
+          .allowed = "numbers" + range.text() + ", separated by commas",
+          .range = range};
 }
 
 ParameterBinding bind_truth(bool &value)

@@ -21,6 +21,7 @@ struct ParameterBinding
   std::function<void(const std::string &)> assign;         ///< takes a text without refusal
   std::function<std::string()> text;                       ///< the present value, such that assign gives the same back
   std::string allowed;                                     ///< in words, e.g. "a number >= 0"
+  Range range = {};                                        ///< of numbers; any for all else
 };
 
 /// The variables must outlive the bindings.
@@ -52,7 +53,8 @@ ParameterBinding bind_integer(Integer &value, const Range &range)
               value = static_cast<Integer>(std::stoull(text));
           },
           .text = [&value] { return std::to_string(value); },
-          .allowed = "a whole number" + (range.text().empty() && Limits::min() == 0 ? " >= 0" : range.text())};
+          .allowed = "a whole number" + (range.text().empty() && Limits::min() == 0 ? " >= 0" : range.text()),
+          .range = range};
 }
 
 } // namespace bergamo::driver

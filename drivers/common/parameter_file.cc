@@ -19,16 +19,6 @@ namespace bergamo::driver
 namespace
 {
 
-struct Entry
-{
-  std::vector<std::string> section;
-  std::string name;
-  std::string path; ///< "Section/Name"
-  std::string doc;
-  std::string default_text;
-  ParameterBinding binding;
-};
-
 /// Lets deal.II accept exactly what a binding accepts.
 class BindingPattern : public dealii::Patterns::PatternBase
 {
@@ -51,14 +41,20 @@ std::vector<std::string> split_path(const std::string &path)
   return parts;
 }
 
-void declare(dealii::ParameterHandler &handler, const std::vector<Entry> &entries)
+std::string usual_of(const ParameterEntry &entry)
 {
-  for (const Entry &entry : entries)
+  const std::string usual = entry.binding.range.usual_text();
+  return usual.empty() ? "" : " Usual: " + usual + ".";
+}
+
+void declare(dealii::ParameterHandler &handler, const std::vector<ParameterEntry> &entries)
+{
+  for (const ParameterEntry &entry : entries)
   {
     for (const std::string &section : entry.section)
       handler.enter_subsection(section);
     handler.declare_entry(entry.name, entry.default_text, BindingPattern(entry.binding),
-                          entry.doc + ". Allowed: " + entry.binding.allowed + ".");
+                          entry.doc + ". Allowed: " + entry.binding.allowed + "." + usual_of(entry));
     for (std::size_t i = 0; i < entry.section.size(); ++i)
       handler.leave_subsection();
   }
@@ -80,7 +76,7 @@ std::string print(const dealii::ParameterHandler &handler, const std::string &ti
 struct ParameterFile::Implementation
 {
   std::string title;
-  std::vector<Entry> entries;
+  std::vector<ParameterEntry> entries;
   std::map<std::string, std::size_t> index; ///< of an entry, by its path
   std::vector<std::string> paths;
   std::vector<std::string> sections; ///< all section paths, those above others included
@@ -95,12 +91,12 @@ struct ParameterFile::Implementation
   }
 
   /// The entry with this path and value; refuses an unknown name or a value that is not allowed.
-  const Entry &checked_entry(const std::string &path, const std::string &value, const std::string &place) const
+  ParameterEntry &checked_entry(const std::string &path, const std::string &value, const std::string &place)
   {
     const auto found = index.find(path);
     if (found == index.end())
       throw ConfigError("unknown parameter '" + path + "' in " + place + suggestion(path));
-    const Entry &entry = entries[found->second];
+    ParameterEntry &entry = entries[found->second];
     const std::string refusal = entry.binding.refusal(value);
     if (!refusal.empty())
       throw ConfigError("parameter '" + path + "' in " + place + ": " + refusal +
@@ -111,7 +107,7 @@ struct ParameterFile::Implementation
   std::string suggestion(const std::string &path) const
   {
     const std::string name = path.substr(path.rfind('/') + 1);
-    for (const Entry &entry : entries) // right name, wrong section
+    for (const ParameterEntry &entry : entries) // right name, wrong section
       if (entry.name == name)
         return "; did you mean '" + entry.path + "'?";
     const std::string near = did_you_mean(path, paths);
@@ -159,7 +155,7 @@ void ParameterFile::add_bound(const std::string &section, const std::string &nam
     if (std::find(sections.begin(), sections.end(), above) == sections.end())
       sections.push_back(above);
   }
-  implementation->entries.push_back({split_path(section), name, path, doc, default_text, std::move(binding)});
+  implementation->entries.push_back({split_path(section), name, path, doc, default_text, std::move(binding), ""});
 }
 
 void ParameterFile::read(const std::filesystem::path &file)
@@ -205,8 +201,9 @@ void ParameterFile::read_text(const std::string &text, const std::string &source
   }
   for (const auto &path_and_line : line_of)
   {
-    const Entry &entry = implementation->entries[implementation->index.at(path_and_line.first)];
+    ParameterEntry &entry = implementation->entries[implementation->index.at(path_and_line.first)];
     entry.binding.assign(handler.get(entry.section, entry.name));
+    entry.place = source + " line " + std::to_string(path_and_line.second);
   }
 }
 
@@ -220,7 +217,14 @@ void ParameterFile::set(const std::string &assignment)
   for (const std::string &part : split_path(assignment.substr(0, equal_sign)))
     path += (path.empty() ? "" : "/") + std::string(trimmed(part));
   const std::string value(trimmed(std::string_view(assignment).substr(equal_sign + 1)));
-  implementation->checked_entry(path, value, place).binding.assign(value);
+  ParameterEntry &entry = implementation->checked_entry(path, value, place);
+  entry.binding.assign(value);
+  entry.place = place;
+}
+
+std::span<const ParameterEntry> ParameterFile::entries() const
+{
+  return implementation->entries;
 }
 
 std::string ParameterFile::default_text() const
@@ -234,7 +238,7 @@ std::string ParameterFile::resolved_text() const
 {
   dealii::ParameterHandler handler;
   declare(handler, implementation->entries);
-  for (const Entry &entry : implementation->entries)
+  for (const ParameterEntry &entry : implementation->entries)
   {
     const std::string text = entry.binding.text();
     if (const std::string refusal = entry.binding.refusal(text); !refusal.empty())

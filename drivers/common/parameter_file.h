@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drivers/common/parameter_binding.h"
+#include "drivers/common/parameter_entry.h"
 
 #include <algorithm>
 #include <array>
@@ -105,6 +105,9 @@ public:
 
   /// Takes one "Section/Name=value" of the command line.
   void set(const std::string &assignment);
+
+  /// All parameters in the order in which they were added.
+  std::span<const ParameterEntry> entries() const;
 
   /// A commented parameter file with the defaults.
   std::string default_text() const;

@@ -16,6 +16,19 @@ bool Range::contains(const double number) const
   return above_lowest && below_highest;
 }
 
+Range Range::usual(const double lowest_usual, const double highest_usual) const
+{
+  Range range = *this;
+  range.usual_lowest = lowest_usual;
+  range.usual_highest = highest_usual;
+  return range;
+}
+
+bool Range::is_usual(const double number) const
+{
+  return contains(number) && (number == 0. || (number >= usual_lowest && number <= usual_highest));
+}
+
 std::string Range::text() const
 {
   std::string text;
@@ -26,6 +39,16 @@ std::string Range::text() const
   if (std::isfinite(highest))
     text += (highest_included ? " <= " : " < ") + short_text(highest, 15);
   return text;
+}
+
+std::string Range::usual_text() const
+{
+  const std::string from = short_text(usual_lowest), to = short_text(usual_highest);
+  if (std::isfinite(usual_lowest) && std::isfinite(usual_highest))
+    return from + " to " + to;
+  if (std::isfinite(usual_highest))
+    return "at most " + to;
+  return std::isfinite(usual_lowest) ? "at least " + from : "";
 }
 
 } // namespace bergamo::driver

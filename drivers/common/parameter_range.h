@@ -13,6 +13,8 @@ struct Range
   double highest = std::numeric_limits<double>::infinity();
   bool lowest_included = true;
   bool highest_included = true;
+  double usual_lowest = -std::numeric_limits<double>::infinity(); ///< sensible values, both limits included
+  double usual_highest = std::numeric_limits<double>::infinity();
 
   static Range any() { return {}; }
   static Range positive() { return above(0); }
@@ -26,10 +28,20 @@ struct Range
   /// Both limits excluded.
   static Range strictly_between(const double lowest, const double highest) { return {lowest, highest, false, false}; }
 
+  /// The same numbers, of which those between the limits are usual. What lies outside is taken, with a warning: a range
+  /// catches other units and slips, so it is as wide as physics allows.
+  Range usual(double lowest, double highest) const;
+
   bool contains(double number) const;
+
+  /// Whether a number needs no warning. So does 0 where it is allowed: it turns off what the parameter is of.
+  bool is_usual(double number) const;
 
   /// " >= 0 and < 0.5" for messages; empty when any number is allowed.
   std::string text() const;
+
+  /// "1e+09 to 1e+12" or "at most 1"; empty when none was given.
+  std::string usual_text() const;
 };
 
 } // namespace bergamo::driver

@@ -10,7 +10,10 @@ namespace bergamo::driver
 void report_run(const Summary &summary, const RunFolder &folder, const CommandLine &command_line,
                 const std::vector<PlotJob> &pictures)
 {
-  summary.write(folder.summary());
+  Summary kept = summary;
+  if (!command_line.warnings.empty()) // which were told before the run; the table has room for figures alone
+    kept.set("warnings", command_line.warnings);
+  kept.write(folder.summary());
   if (!command_line.quiet)
     std::cout << summary.table();
   if (!command_line.plots)

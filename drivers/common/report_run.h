@@ -10,8 +10,9 @@
 namespace bergamo::driver
 {
 
-/// The end of a run: writes summary.json, shows its table, draws the pictures and names them, as the command line asks.
-/// Pictures that cannot be drawn are warnings. @throws RunError when the summary cannot be written
+/// The end of a run: writes summary.json, warnings of the parameters included, shows its table, draws the pictures and
+/// names them, as the command line asks. Pictures that cannot be drawn are warnings. @throws RunError when the summary
+/// cannot be written
 void report_run(const Summary &summary, const RunFolder &folder, const CommandLine &command_line,
                 const std::vector<PlotJob> &pictures);
 

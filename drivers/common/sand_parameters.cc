@@ -11,7 +11,7 @@ namespace bergamo::driver
 void SandParameters::declare(ParameterFile &file)
 {
   file.add("Sand", "box", {box.data(), 3}, "inner edges of the rigid box; upright: of the loose packing [m]",
-           Range::positive());
+           Range::positive().usual(1e-4, 10));
   declare_distribution(file, "Sand", distribution);
   file.add("Sand", "solid fraction", solid_fraction, "of the loose packing",
            {.lowest = 0, .highest = 0.6, .lowest_included = false});
@@ -19,11 +19,12 @@ void SandParameters::declare(ParameterFile &file)
   file.add("Sand", "grains file", grains_file,
            "a packing to settle instead of one that is made: a table (.csv) or a dump of LAMMPS or LIGGGHTS, see "
            "docs/files.md; places as in the pictures of the driver; empty: none");
-  file.add("Sand/Settling", "gravity", settling_gravity, "what the packing settles under [m/s2]", Range::positive());
+  file.add("Sand/Settling", "gravity", settling_gravity, "what the packing settles under [m/s2]",
+           Range::positive().usual(0.1, 1e4));
   file.add("Sand/Settling", "time", settling_time, "[s]", Range::positive());
   file.add("Sand/Settling", "time step", settling_step, "[s]", Range::positive());
   file.add("Sand/Settling", "damping ratio", settling_damping, "dashpot at the contacts, share of critical damping",
-           Range::between(0, 10));
+           Range::between(0, 10).usual(0, 1));
 }
 
 void SandParameters::validate(const dem::Material &grain, const dem::Box &place) const

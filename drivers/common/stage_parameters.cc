@@ -40,11 +40,13 @@ void StageParameters::declare(ParameterFile &file, const std::string &section)
             {"true triaxial", StagePath::true_triaxial},
             {"constant volume", StagePath::constant_volume},
             {"constant pressure", StagePath::constant_pressure}});
-  file.add(section, "pressure", settings.pressure, "0: the sample's confining pressure [Pa]", Range::non_negative());
+  file.add(section, "pressure", settings.pressure, "0: the sample's confining pressure [Pa]",
+           Range::non_negative().usual(100, 1e9));
   file.add(section, "stresses", {settings.stresses.data(), 3}, "of true triaxial loading, compression positive [Pa]",
-           Range::non_negative());
-  file.add(section, "friction", settings.friction, "between grains", Range::non_negative());
-  file.add(section, "axial strain", settings.axial_strain, "along z since the start of the stage; compression is < 0");
+           Range::non_negative().usual(100, 1e9));
+  file.add(section, "friction", settings.friction, "between grains", Range::non_negative().usual(0, 2));
+  file.add(section, "axial strain", settings.axial_strain, "along z since the start of the stage; compression is < 0",
+           Range::any().usual(-0.9, 0.9));
   file.add(section, "cycles", settings.n_cycles,
            "of the axial strain: to the one above, to its opposite and so on, and back; 0 goes there once",
            Range::between(0, 1000000));

@@ -37,6 +37,14 @@ std::string text_of(const std::vector<double> &values)
   return text;
 }
 
+std::string text_of(const std::vector<std::string> &texts)
+{
+  std::string text;
+  for (const std::string &part : texts)
+    text += (text.empty() ? "" : "; ") + part;
+  return text;
+}
+
 /// Width on a terminal of UTF-8 text: the number of its characters.
 std::size_t width(const std::string &text)
 {
@@ -51,7 +59,8 @@ std::string padding(const std::string &text, const std::size_t wanted)
 
 bool is_text(const Summary::Value &value)
 {
-  return std::holds_alternative<std::string>(value) || std::holds_alternative<std::vector<double>>(value);
+  return std::holds_alternative<std::string>(value) || std::holds_alternative<std::vector<double>>(value) ||
+         std::holds_alternative<std::vector<std::string>>(value);
 }
 
 } // namespace

@@ -28,7 +28,7 @@ struct RunFigures
 class Summary
 {
 public:
-  using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+  using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
 
   /// Sets a figure, or changes it in its place. `unit` is for the table; a name in summary.json carries its unit
   /// itself ("wall_time_s").
@@ -48,6 +48,7 @@ public:
   {
     set_value(name, values, unit);
   }
+  void set(const std::string &name, const std::vector<std::string> &texts) { set_value(name, texts, ""); }
   void set(const RunFigures &figures);
 
   /// The figures as a JSON object in the order set, numbers exact; infinity and NaN become null.

@@ -20,15 +20,16 @@ void warn(const std::vector<std::string> &warnings)
     std::cerr << "warning: " << warning << '\n';
 }
 
-int job(const CommandLine &command_line)
+int job(const CommandLine &words)
 {
   const auto start = std::chrono::steady_clock::now();
   FitParameters parameters;
   ParameterFile file("Fit of Mohr-Coulomb parameters to an ensemble of triaxial tests");
   parameters.declare(file);
-  if (!read_parameters(file, command_line))
+  if (!read_parameters(file, words))
     return done;
   parameters.validate();
+  const CommandLine command_line = warned_of(file, words);
   require_apart(command_line.output, parameters.ensemble);
 
   RunFolder folder(command_line, {"fit_mohr_coulomb.json", "continuum.prm", "curves_grains.csv", "curves_continuum.csv",

@@ -11,7 +11,7 @@ void FitParameters::declare(ParameterFile &file)
   file.add("Ensemble", "folder", ensemble,
            "run folder of rve_triaxial with ensemble.csv, from where the program starts");
   file.add("Ensemble", "edges", choice.edges, "only samples with these edges of the cell [m]; empty: all",
-           Range::positive());
+           Range::positive().usual(1e-4, 10));
   file.add("Ensemble", "generation frictions", choice.generation_frictions,
            "only samples packed with these friction coefficients; empty: all", Range::non_negative());
   file.add("Ensemble", "pressures", choice.pressures, "only samples under these confining pressures [Pa]; empty: all",
@@ -47,7 +47,8 @@ void FitParameters::declare(ParameterFile &file)
            {.lowest = 0, .highest = 1, .highest_included = false});
 
   file.add("Grains", "density", grain_density,
-           "of the mineral; times the initial solid fraction it is the continuum's density [kg/m3]", Range::positive());
+           "of the mineral; times the initial solid fraction it is the continuum's density [kg/m3]",
+           Range::positive().usual(500, 2e4));
 
   file.add(
       "Hardening", "fit", hardening_is_wanted,

@@ -17,16 +17,17 @@ HourglassParameters::HourglassParameters()
 
 void HourglassParameters::declare(ParameterFile &file)
 {
-  file.add("Glass", "neck radius", glass.neck_radius, "[m]", Range::positive());
-  file.add("Glass", "chamber radius", glass.chamber_radius, "[m]", Range::positive());
+  file.add("Glass", "neck radius", glass.neck_radius, "[m]", Range::positive().usual(1e-4, 10));
+  file.add("Glass", "chamber radius", glass.chamber_radius, "[m]", Range::positive().usual(1e-4, 10));
   file.add("Glass", "half angle", glass.half_angle, "of the cones, from the axis [degrees]",
-           Range::strictly_between(0, 90));
+           Range::strictly_between(0, 90).usual(2, 88));
   file.add("Glass", "cylinder height", glass.cylinder_height, "above the upper cone, and below the lower one [m]",
-           Range::positive());
+           Range::positive().usual(1e-4, 10));
   file.add("Glass", "facets", glass.n_facets, "around", Range::between(3, 1000));
-  file.add("Glass", "triangle size", glass.triangle_size, "along the walls at most [m]", Range::positive());
-  file.add("Glass", "friction", friction, "among grains, and of grains and glass", Range::non_negative());
-  file.add("Glass", "gravity", gravity, "downwards [m/s2]", Range::positive());
+  file.add("Glass", "triangle size", glass.triangle_size, "along the walls at most [m]",
+           Range::positive().usual(1e-4, 10));
+  file.add("Glass", "friction", friction, "among grains, and of grains and glass", Range::non_negative().usual(0, 2));
+  file.add("Glass", "gravity", gravity, "downwards [m/s2]", Range::positive().usual(0.1, 1e4));
 
   sizes.declare(file);
   declare_grains(file, simulation);

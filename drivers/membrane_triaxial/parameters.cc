@@ -22,29 +22,30 @@ void MembraneParameters::declare_surface(ParameterFile &file)
   file.add("Membrane", "elements high", n_high, "", Range::between(2, 1000));
   file.add("Membrane", "contact modulus", contact_modulus,
            "Young's modulus of its skin in Hertz's law; grains sink into one as soft as rubber [Pa]",
-           Range::positive());
+           Range::positive().usual(1e4, 1e12));
 }
 
 void MembraneParameters::declare_rubber(ParameterFile &file)
 {
-  file.add("Membrane", "thickness", thickness, "where it is free of stress [m]", Range::positive());
-  file.add("Membrane", "density", rubber.density, "more than rubber's allows longer steps [kg/m3]", Range::positive());
+  file.add("Membrane", "thickness", thickness, "where it is free of stress [m]", Range::positive().usual(1e-5, 0.02));
+  file.add("Membrane", "density", rubber.density, "more than rubber's allows longer steps [kg/m3]",
+           Range::positive().usual(500, 2e4));
   file.add("Membrane", "moduli", std::span<double>(rubber.modulus), "mu of Ogden's three terms [Pa]");
   file.add("Membrane", "exponents", std::span<double>(rubber.exponent), "alpha of Ogden's three terms");
   file.add("Membrane", "friction", friction, "Coulomb's coefficient between grains and membrane",
-           Range::non_negative());
+           Range::non_negative().usual(0, 2));
 }
 
 void MouldParameters::declare(ParameterFile &file)
 {
-  file.add("Mould", "diameter", diameter, "of the loose packing [m]", Range::positive());
-  file.add("Mould", "height", height, "of the loose packing [m]", Range::positive());
+  file.add("Mould", "diameter", diameter, "of the loose packing [m]", Range::positive().usual(1e-3, 2));
+  file.add("Mould", "height", height, "of the loose packing [m]", Range::positive().usual(1e-3, 4));
   file.add("Mould", "solid fraction", solid_fraction, "of the loose packing",
            {.lowest = 0, .highest = 0.6, .lowest_included = false});
   file.add("Mould", "seed", seed, "of all random numbers");
   file.add("Mould", "friction", friction, "between grains while it shrinks: less gives denser samples",
-           Range::non_negative());
-  file.add("Mould", "pressure", pressure, "at which its shrinking ends [Pa]", Range::positive());
+           Range::non_negative().usual(0, 2));
+  file.add("Mould", "pressure", pressure, "at which its shrinking ends [Pa]", Range::positive().usual(100, 1e9));
   file.add("Mould", "largest rate", largest_rate, "of its shrinking [1/s]", Range::positive());
   file.add("Mould", "pressure tolerance", pressure_tolerance, "at its end, over the pressure",
            Range::strictly_between(0, 1));
@@ -91,12 +92,13 @@ void MembraneTriaxialParameters::declare(ParameterFile &file)
            "sample.h5 of an earlier run's folder with the same grains, mould and elements of the membrane; empty: one "
            "is made");
   file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient between grains",
-           Range::non_negative());
+           Range::non_negative().usual(0, 2));
   file.add("Grains", "plate friction", simulation.with_walls().friction, "the same between grains and the rigid plates",
-           Range::non_negative());
+           Range::non_negative().usual(0, 2));
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
   file.add("Test", "gravity", gravity, "once the mould is gone [m/s2]", Range::non_negative());
-  file.add("Test", "lateral pressure", pressure, "of the air around the membrane [Pa]", Range::positive());
+  file.add("Test", "lateral pressure", pressure, "of the air around the membrane [Pa]",
+           Range::positive().usual(100, 1e9));
   file.add("Test", "loading time", loading_time, "over which it grows from that of the mould, smoothly [s]",
            Range::positive());
   file.add("Test", "pressure tolerance", pressure_tolerance, "of the plates before the compression, over the pressure",

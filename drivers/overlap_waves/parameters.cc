@@ -37,8 +37,8 @@ void WaveParameters::declare(ParameterFile &file)
   file.add("Pulse", "amplitude", amplitude, "of its strain, over that of the contacts under the pressure",
            {.lowest = 0., .highest = 0.1, .lowest_included = false});
 
-  file.add("Grains", "radius", radius, "[m]", Range::positive());
-  file.add("Grains", "pressure", pressure, "that the lattice bears [Pa]", Range::positive());
+  file.add("Grains", "radius", radius, "[m]", Range::positive().usual(1e-6, 0.1));
+  file.add("Grains", "pressure", pressure, "that the lattice bears [Pa]", Range::positive().usual(100, 1e9));
   declare_grains(file, simulation);
   file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient", Range::positive());
   declare_coupling(file, coupling);

@@ -28,21 +28,22 @@ void PenetrationParameters::declare(ParameterFile &file)
       "Intruder", "kind", intruder.kind,
       "plate: a blade, edge down; cone: round, with a pointed or a flat tip; pile: from the box's front to its back",
       {{"plate", IntruderKind::plate}, {"cone", IntruderKind::cone}, {"pile", IntruderKind::pile}});
-  file.add("Intruder", "breadth", intruder.breadth, "of a plate, along y [m]", Range::positive());
+  file.add("Intruder", "breadth", intruder.breadth, "of a plate, along y [m]", Range::positive().usual(1e-4, 10));
   intruder.declare(file, "Intruder");
   file.add("Intruder", "friction", intruder_friction, "Coulomb's coefficient between grains and intruder",
-           Range::non_negative());
+           Range::non_negative().usual(0, 2));
   sand.declare(file);
   declare_grains(file, simulation);
   file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient between grains",
-           Range::non_negative());
+           Range::non_negative().usual(0, 2));
   file.add("Grains", "box friction", simulation.with_walls().friction,
-           "the same between grains and the rigid box; 0: smooth", Range::non_negative());
+           "the same between grains and the rigid box; 0: smooth", Range::non_negative().usual(0, 2));
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
-  file.add("Penetration", "gravity", gravity, "[m/s2]", Range::positive());
-  file.add("Penetration", "depth", depth, "way of the intruder from the highest grain down [m]", Range::positive());
-  file.add("Penetration", "speed", speed, "[m/s]", Range::positive());
+  file.add("Penetration", "gravity", gravity, "[m/s2]", Range::positive().usual(0.1, 1e4));
+  file.add("Penetration", "depth", depth, "way of the intruder from the highest grain down [m]",
+           Range::positive().usual(1e-4, 10));
+  file.add("Penetration", "speed", speed, "[m/s]", Range::positive().usual(1e-5, 100));
   file.add("Penetration", "start time", start_time, "over which the speed grows, smoothly [s]", Range::positive());
   file.add("Penetration", "time step", simulation.time_step, "[s]", Range::positive());
   output.declare(file, "grains, intruder and contacts are");

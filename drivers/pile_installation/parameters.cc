@@ -47,8 +47,9 @@ void InstallationParameters::declare(ParameterFile &file)
            {{"linear", coupling::WeightShape::linear}, {"smooth", coupling::WeightShape::smooth}});
   file.add("Model", "block width", block_width,
            "of the grains that stay, along x, to the outer edge of the overlap; the pile is in its middle [m]",
-           Range::positive());
-  file.add("Model", "block depth", block_depth, "the same from the settled sand's level down [m]", Range::positive());
+           Range::positive().usual(1e-4, 10));
+  file.add("Model", "block depth", block_depth, "the same from the settled sand's level down [m]",
+           Range::positive().usual(1e-4, 10));
   file.add("Model", "growth depth", growth_depth,
            "by which the block may grow downwards as the pile comes near its end, in whole elements; 0: never [m]",
            Range::non_negative());
@@ -58,7 +59,7 @@ void InstallationParameters::declare(ParameterFile &file)
   file.add("Model", "beyond sides", beyond_sides, "width of the elements beyond the box of sand, on each side [m]",
            Range::non_negative());
   file.add("Model", "beyond bottom", beyond_bottom, "the same below it [m]", Range::non_negative());
-  file.add("Model", "element size", mesh.element_size, "in the overlap [m]", Range::positive());
+  file.add("Model", "element size", mesh.element_size, "in the overlap [m]", Range::positive().usual(1e-4, 10));
   file.add("Model", "overlap layers", mesh.overlap_layers, "of elements, at the sides and at the bottom of the block",
            Range::between(1, 20));
   file.add("Model", "layers across", mesh.layers_across, "of elements along y", Range::between(1, 100));
@@ -71,10 +72,12 @@ void InstallationParameters::declare(ParameterFile &file)
   file.add("Pile", "kind", pile.kind, "pile: from the box's front to its back, plane strain; cone: round",
            {{"pile", IntruderKind::pile}, {"cone", IntruderKind::cone}});
   pile.declare(file, "Pile");
-  file.add("Pile", "friction", pile_friction, "Coulomb's coefficient between grains and pile", Range::non_negative());
+  file.add("Pile", "friction", pile_friction, "Coulomb's coefficient between grains and pile",
+           Range::non_negative().usual(0, 2));
   file.add("Pile", "drive", drive, "what is given: the pile's speed, or the force on its head",
            {{"speed", PileDrive::speed}, {"force", PileDrive::force}});
-  file.add("Pile", "speed", speed, "downwards; 0: the pile stays above the sand [m/s]", Range::non_negative());
+  file.add("Pile", "speed", speed, "downwards; 0: the pile stays above the sand [m/s]",
+           Range::non_negative().usual(1e-5, 100));
   file.add("Pile", "head force", head_force, "at the end, in proportion to the time until then [N]", Range::positive());
   file.add("Pile", "mass", pile_mass, "inertia of a pile that a force drives; it has no weight [kg]",
            Range::positive());
@@ -87,7 +90,7 @@ void InstallationParameters::declare(ParameterFile &file)
            Range::non_negative());
   declare_grains(file, simulation);
   file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient between grains",
-           Range::non_negative());
+           Range::non_negative().usual(0, 2));
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
   continuum.declare(file);

@@ -17,10 +17,10 @@ namespace
 
 void declare_elastic(ParameterFile &file, const std::string &section, fe::ElasticParameters &elastic)
 {
-  file.add(section, "Young's modulus", elastic.young_modulus, "[Pa]", Range::positive());
+  file.add(section, "Young's modulus", elastic.young_modulus, "[Pa]", Range::positive().usual(1e4, 1e12));
   file.add(section, "Poisson's ratio", elastic.poisson_ratio, "",
            {.lowest = 0, .highest = 0.5, .highest_included = false});
-  file.add(section, "density", elastic.density, "[kg/m3]", Range::positive());
+  file.add(section, "density", elastic.density, "[kg/m3]", Range::positive().usual(100, 2e4));
 }
 
 /// A of the viscoelastic law that two mean grains have at 1 m/s [s].
@@ -44,7 +44,8 @@ BlockParameters::BlockParameters()
 
 void BlockParameters::declare(ParameterFile &file)
 {
-  file.add("Block", "edges", {edges.data(), 3}, "along the pull, across it, upright [m]", Range::positive());
+  file.add("Block", "edges", {edges.data(), 3}, "along the pull, across it, upright [m]",
+           Range::positive().usual(1e-4, 10));
   file.add(
       "Block", "element", element, "quadratic: 27 nodes; bending: 8 nodes that bend; plain: 8 nodes",
       {{"quadratic", BlockElement::quadratic}, {"bending", BlockElement::bending}, {"plain", BlockElement::plain}});
@@ -89,22 +90,23 @@ void RubberBlockParameters::declare(ParameterFile &file)
   sand.declare(file);
   declare_grains(file, simulation);
   file.add("Grains", "friction", simulation.between_grains().friction, "Coulomb's coefficient between grains",
-           Range::non_negative());
+           Range::non_negative().usual(0, 2));
   file.add("Grains", "box friction", simulation.with_walls().friction, "the same between grains and the rigid box",
-           Range::non_negative());
-  file.add("Grains", "block friction", block_friction, "the same between grains and block", Range::non_negative());
+           Range::non_negative().usual(0, 2));
+  file.add("Grains", "block friction", block_friction, "the same between grains and block",
+           Range::non_negative().usual(0, 2));
   file.add("Grains", "block contact modulus", contact_modulus,
            "Young's modulus of the block's skin in Hertz's law; grains sink into one as soft as rubber [Pa]",
-           Range::positive());
+           Range::positive().usual(1e4, 1e12));
   file.add("Grains", "restitution", restitution, "of two mean grains at 1 m/s: sets the viscoelastic law's A",
            Range::between(0.1, 1));
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
   file.add("Pull", "gravity", gravity, "[m/s2]", Range::non_negative());
-  file.add("Pull", "pressure", pressure, "on the block's top [Pa]", Range::positive());
+  file.add("Pull", "pressure", pressure, "on the block's top [Pa]", Range::positive().usual(100, 1e9));
   file.add("Pull", "loading time", loading_time, "over which the pressure grows, smoothly [s]", Range::positive());
   file.add("Pull", "holding time", holding_time, "under all of the pressure, before the pull [s]", Range::positive());
-  file.add("Pull", "speed", speed, "of the block's top [m/s]", Range::positive());
+  file.add("Pull", "speed", speed, "of the block's top [m/s]", Range::positive().usual(1e-5, 1000));
   file.add("Pull", "start time", start_time, "over which the speed grows, smoothly [s]", Range::positive());
   file.add("Pull", "time", pull_time, "from its begin on [s]", Range::positive());
   file.add("Pull", "offset", start_offset, "of the block from the rear of the box, before the pull [m]",

@@ -32,10 +32,12 @@ void RveParameters::declare(ParameterFile &file)
 {
   file.add("Ensemble", "samples", n_samples, "of each combination of the lists below", Range::between(1, 10000));
   file.add("Ensemble", "seed", seed, "of the first sample; the others follow");
-  file.add("Ensemble", "edges", edges, "of the periodic cells before their compression [m]", Range::positive());
+  file.add("Ensemble", "edges", edges, "of the periodic cells before their compression [m]",
+           Range::positive().usual(1e-4, 10));
   file.add("Ensemble", "generation frictions", generation_frictions,
-           "between grains while a packing is compressed: less gives denser packings", Range::non_negative());
-  file.add("Ensemble", "confining pressures", confining_pressures, "[Pa]", Range::positive());
+           "between grains while a packing is compressed: less gives denser packings",
+           Range::non_negative().usual(0, 2));
+  file.add("Ensemble", "confining pressures", confining_pressures, "[Pa]", Range::positive().usual(100, 1e9));
 
   sizes.declare(file);
   declare_grains(file, simulation);
@@ -43,7 +45,7 @@ void RveParameters::declare(ParameterFile &file)
   file.add("Packing", "solid fraction", packing_solid_fraction, "of the geometric packing, before any contact",
            Range::strictly_between(0, 1));
   file.add("Packing", "pressure", generation.pressure, "of the isotropic compression that follows [Pa]",
-           Range::positive());
+           Range::positive().usual(100, 1e9));
   declare_stage_end(file, "Packing", generation);
 
   for (std::size_t k = 0; k < max_stages; ++k)

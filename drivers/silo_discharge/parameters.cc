@@ -24,22 +24,22 @@ SiloParameters::SiloParameters()
 
 void SiloParameters::declare(ParameterFile &file)
 {
-  file.add("Silo", "width", width, "across the orifice [m]", Range::positive());
-  file.add("Silo", "depth", depth, "along the orifice, which is as long [m]", Range::positive());
+  file.add("Silo", "width", width, "across the orifice [m]", Range::positive().usual(1e-4, 10));
+  file.add("Silo", "depth", depth, "along the orifice, which is as long [m]", Range::positive().usual(1e-4, 10));
   file.add("Silo", "fill height", fill_height, "of the settled grains at the expected solid fraction [m]",
-           Range::positive());
+           Range::positive().usual(1e-4, 10));
   file.add("Silo", "triangle size", triangle_size, "longest leg of the triangles of walls and floor [m]",
-           Range::positive());
+           Range::positive().usual(1e-4, 10));
   file.add("Silo", "orifice widths", orifice_widths,
            "one discharge each, all of the same filled silo; three and more give Beverloo's law [m]",
-           Range::positive());
-  file.add("Silo", "friction", friction, "among grains, and of grains and silo", Range::non_negative());
-  file.add("Silo", "gravity", gravity, "downwards [m/s2]", Range::positive());
+           Range::positive().usual(1e-4, 10));
+  file.add("Silo", "friction", friction, "among grains, and of grains and silo", Range::non_negative().usual(0, 2));
+  file.add("Silo", "gravity", gravity, "downwards [m/s2]", Range::positive().usual(0.1, 1e4));
 
   sizes.declare(file);
   declare_grains(file, simulation);
   file.add("Grains", "relaxation time", simulation.between_grains().relaxation_time,
-           "A of the viscoelastic damping at all contacts [s]", Range::non_negative());
+           "A of the viscoelastic damping at all contacts [s]", Range::non_negative().usual(1e-10, 1e-2));
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
   file.add("Filling", "solid fraction", packing_solid_fraction, "of the packing from which the grains settle",
@@ -48,7 +48,7 @@ void SiloParameters::declare(ParameterFile &file)
            {.lowest = 0, .highest = 0.8, .lowest_included = false});
   file.add("Filling", "damping ratio", filling_damping_ratio,
            "dashpot while the grains settle, share of critical damping; they come to rest sooner",
-           Range::between(0, 10));
+           Range::between(0, 10).usual(0, 1));
   file.add("Filling", "rest share", rest_share,
            "mean kinetic energy of a grain over its weight times its diameter, below which all are at rest",
            Range::positive());

@@ -24,9 +24,9 @@ FootingParameters::FootingParameters()
 
 void FootingParameters::declare(ParameterFile &file)
 {
-  file.add("Footing", "width", width, "B [m]", Range::positive());
+  file.add("Footing", "width", width, "B [m]", Range::positive().usual(0.01, 1000));
   file.add("Footing", "rough", rough, "no slip between footing and ground");
-  file.add("Footing", "settlement", settlement, "at the end [m]", Range::positive());
+  file.add("Footing", "settlement", settlement, "at the end [m]", Range::positive().usual(1e-5, 100));
   file.add("Footing", "loading time", loading_time, "long against the time of a wave over the ground [s]",
            Range::positive());
   file.add("Footing", "ramp", ramp, "share of the loading time in which the footing speeds up",
@@ -43,10 +43,10 @@ void FootingParameters::declare(ParameterFile &file)
            "of degree 1: one law for each, and a stiffness of their own where they bend");
   file.add("Ground", "large strain", large_strain,
            "elements of the present shape, for soil that strains by more than a percent or turns; not of bending ones");
-  file.add("Ground", "gravity", gravity, "downwards; 0: weightless [m/s2]", Range::non_negative());
+  file.add("Ground", "gravity", gravity, "downwards; 0: weightless [m/s2]", Range::non_negative().usual(0.1, 1e4));
   file.add("Ground", "surcharge", surcharge, "on the whole surface [Pa]", Range::non_negative());
   file.add("Ground", "earth pressure at rest", earth_pressure_at_rest, "K0: horizontal over vertical stress at rest",
-           Range::non_negative());
+           Range::non_negative().usual(0.1, 5));
   file.add("Ground", "far boundaries", far_boundaries,
            "far side and bottom; quiet ones let waves leave, but give way to what presses for long",
            {{"held", FarBoundaries::held}, {"quiet", FarBoundaries::quiet}});
@@ -60,7 +60,7 @@ void FootingParameters::declare(ParameterFile &file)
     deeper[k].declare(file, "Layer " + std::to_string(k + 2));
   file.add("Continuum", "damping", damping, "mass-proportional [1/s]", Range::non_negative());
 
-  file.add("Output", "step share", step_share, "of the stable time step", Range::strictly_between(0, 1));
+  file.add("Output", "step share", step_share, "of the stable time step", Range::strictly_between(0, 1).usual(0.05, 1));
   output.declare(file, "the mesh is");
 }
 

@@ -23,7 +23,7 @@ void TriaxialParameters::declare(ParameterFile &file)
 {
   file.add("Model", "kind", kind, "which models share the cube",
            {{"two-scale", ModelKind::two_scale}, {"grains", ModelKind::grains}, {"continuum", ModelKind::continuum}});
-  file.add("Model", "edge", edge, "edge of the cube [m]", Range::positive());
+  file.add("Model", "edge", edge, "edge of the cube [m]", Range::positive().usual(1e-4, 10));
   file.add("Model", "elements per edge", layers.per_edge, "hexahedra along an edge of the cube",
            Range::between(2, 200));
   file.add("Model", "continuum layers", layers.continuum, "layers of elements, from the bottom",
@@ -45,7 +45,7 @@ void TriaxialParameters::declare(ParameterFile &file)
   declare_distribution(file, "Grains", distribution);
   declare_grains(file, simulation);
   file.add("Grains", "friction", simulation.between_grains().friction,
-           "Coulomb's coefficient between grains during the loading", Range::non_negative());
+           "Coulomb's coefficient between grains during the loading", Range::non_negative().usual(0, 10));
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
 
   file.add("Packing", "seed", seed, "of all random numbers");
@@ -54,7 +54,7 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Packing", "expected solid fraction", expected_solid_fraction, "after the compression; sets how many grains",
            {.lowest = 0, .highest = 1, .lowest_included = false});
   file.add("Packing", "friction", packing_friction, "between grains during the compression: less gives denser packings",
-           Range::non_negative());
+           Range::non_negative().usual(0, 2));
   declare_compression(file, compression);
   file.add("Packing", "time step", packing_time_step, "during the compression [s]", Range::positive());
   file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance",

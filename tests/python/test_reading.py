@@ -21,7 +21,7 @@ subsection Grains
   set mean half-axes = 0.0005, 0.0004, 3e-04
 
   # of the uniform distribution; towards 0 a box, 1 an ellipsoid. Allowed: a
-  # number > 0 and < 2.
+  # number > 0 and < 2. Usual: 0.2 to 1.8.
   set exponent       = 1     # default: 0.6
 
   subsection Clumps
@@ -104,7 +104,8 @@ class Parameters(FolderCase):
         self.assertEqual(parameters["Output/title"], "7")
         self.assertEqual(parameters.unit("Grains/mean half-axes"), "m")
         about = parameters.about("Grains/exponent")
-        self.assertEqual((about.default, about.text, about.unit, about.allowed), ("0.6", "1", "", "a number > 0 and < 2"))
+        self.assertEqual((about.default, about.text, about.unit, about.allowed, about.usual),
+                         ("0.6", "1", "", "a number > 0 and < 2", "0.2 to 1.8"))
         self.assertEqual(about.explanation, "of the uniform distribution; towards 0 a box, 1 an ellipsoid")
         self.assertIsNone(parameters.about("Output/title").default)
         self.assertEqual(list(parameters.flat()), ["Grains/mean half-axes", "Grains/exponent", "Grains/Clumps/parts",

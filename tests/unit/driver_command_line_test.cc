@@ -6,6 +6,9 @@
 #include <catch2/catch.hpp>
 #include <omp.h>
 
+#include <iostream>
+#include <sstream>
+
 using namespace bergamo::driver;
 using bergamo::ConfigError;
 using Catch::Matchers::Contains;
@@ -23,6 +26,20 @@ std::optional<CommandLine> parse(std::vector<std::string> words)
     arguments.push_back(word.c_str());
   return parse_command_line(static_cast<int>(arguments.size()), arguments.data(), {"triaxial", "A test."});
 }
+
+/// What is written to a stream meanwhile.
+class Output
+{
+public:
+  explicit Output(std::ostream &stream = std::cout) : stream(stream), before(stream.rdbuf(buffer.rdbuf())) {}
+  ~Output() { stream.rdbuf(before); }
+  std::string text() const { return buffer.str(); }
+
+private:
+  std::ostringstream buffer;
+  std::ostream &stream;
+  std::streambuf *before;
+};
 
 } // namespace
 
@@ -86,6 +103,60 @@ TEST_CASE("of several parameter files, later ones win, --set wins over all, and 
 
   put(fit, "subsection Grains\n set densty = 2500\nend\n");
   CHECK_THROWS_WITH(read_parameters(file, *parse({sand, fit})), Contains("fit.prm") && Contains("densty"));
+}
+
+TEST_CASE("--help takes the name of a parameter, needs no file then, and leaves parameter files alone")
+{
+  TemporaryFolder folder;
+  const std::string file = (folder / "sand.prm").string();
+  put(file, "");
+  CHECK(parse({"--help", "Grains/friction"})->help_topic == "Grains/friction");
+  CHECK(parse({"-h", "Grains"})->help_topic == "Grains");
+  CHECK(parse({"--help=Grains"})->help_topic == "Grains");
+  const auto with_file = parse({file, "--set", "Grains/friction=1", "--help", "Grains/friction"});
+  CHECK(with_file->parameter_files == Files{file});
+  CHECK(with_file->help_topic == "Grains/friction");
+  const Output output;
+  CHECK_FALSE(parse({"--help"}));
+  CHECK_FALSE(parse({"--help", "--quiet"}));
+  CHECK_FALSE(parse({"--help", file}));
+  CHECK_FALSE(parse({file, "-h"}));
+  CHECK_THAT(output.text(), Contains("Usage: triaxial"));
+}
+
+TEST_CASE("the explanation of a parameter comes also where a file has a mistake, which is told after it")
+{
+  TemporaryFolder folder;
+  const std::string sand = (folder / "sand.prm").string();
+  put(sand, "subsection Grains\n set friction = -1\nend\n");
+  double friction = 0.5;
+  ParameterFile file("Test");
+  file.add("Grains", "friction", friction, "of grains", Range::non_negative());
+  const Output output;
+  CHECK_THROWS_WITH(read_parameters(file, *parse({sand, "--help", "friction"})), Contains("'-1' is out of range"));
+  CHECK_THAT(output.text(), Contains("allowed    a number >= 0"));
+
+  put(sand, "subsection Grains\n set friction = 1\nend\n");
+  CHECK_FALSE(read_parameters(file, *parse({sand, "--help", "friction"})));
+  CHECK_THAT(output.text(), Contains("in force   1, set by sand.prm line 2"));
+}
+
+TEST_CASE("what is unusual is told on standard error and kept with the command line")
+{
+  TemporaryFolder folder;
+  const std::string sand = (folder / "sand.prm").string();
+  put(sand, "subsection Grains\n set density = 2.6\nend\n");
+  double density = 2600;
+  ParameterFile file("Test");
+  file.add("Grains", "density", density, "of grains [kg/m3]", Range::positive().usual(500, 20000));
+  const CommandLine words = *parse({sand});
+  REQUIRE(read_parameters(file, words));
+  const Output output(std::cerr);
+  const CommandLine warned = warned_of(file, words, {"the moon is full"});
+  REQUIRE(warned.warnings.size() == 2);
+  CHECK_THAT(warned.warnings[0], Contains("Grains/density is 2.6 kg/m3 (sand.prm line 2)"));
+  CHECK(output.text() == "warning: " + warned.warnings[0] + "\nwarning: the moon is full\n");
+  CHECK(warned.parameter_files == words.parameter_files);
 }
 
 TEST_CASE("mistakes on the command line are explained")

@@ -103,6 +103,16 @@ TEST_CASE("nearest name finds a misspelt name and stays silent for a strange one
   CHECK(nearest_name("ab", std::vector<std::string>{"x"}).empty());
 }
 
+TEST_CASE("the nearest names come first, three at most")
+{
+  using Names = std::vector<std::string>;
+  const Names known = {"Grains/fraction", "Run/seed", "Grains/frictions", "Grains/friction", "Grains/fiction"};
+  CHECK(nearest_names("Grains/friction", known) == Names{"Grains/friction", "Grains/fraction", "Grains/frictions"});
+  CHECK(nearest_names("xyz", known).empty());
+  CHECK(either_of(Names{"a"}) == "'a'");
+  CHECK(either_of(Names{"a", "b", "c"}) == "'a', 'b' or 'c'");
+}
+
 TEST_CASE("true and yes are one, false and no the other")
 {
   Parameters p;

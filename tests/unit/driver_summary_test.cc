@@ -106,6 +106,23 @@ TEST_CASE("the end of a run leaves the whole summary in its folder, and shows it
   CHECK(figures["steps"] == 42);
 }
 
+TEST_CASE("what the parameters have that is unusual stays in the summary, and out of the table")
+{
+  TemporaryFolder parent;
+  RunFolder folder(parent / "run", FolderMode::fresh);
+  folder.open();
+  Summary summary;
+  summary.set("steps", 1);
+  CommandLine command_line;
+  command_line.plots = false;
+  command_line.warnings = {"a density of 1.8", "a step that is \"short\""};
+  const CapturedOutput output;
+  report_run(summary, folder, command_line, {});
+  CHECK(output.text() == summary.table());
+  const auto figures = nlohmann::json::parse(content_of(folder.summary()));
+  CHECK(figures["warnings"].get<std::vector<std::string>>() == command_line.warnings);
+}
+
 TEST_CASE("the end of a run says where its summary cannot be written")
 {
   TemporaryFolder parent;

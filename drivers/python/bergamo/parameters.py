@@ -28,6 +28,7 @@ class Parameter:
     explanation: str = ""  # without unit and range
     unit: str = ""  # "Pa", "kg/m3"; empty for numbers without one
     allowed: str = ""  # "a number > 0"
+    usual: str = ""  # "1e+06 to 1e+12", where the program warns of all else
     default: str | None = None  # where the run's value is another
 
 
@@ -141,14 +142,14 @@ def parse_parameters(text: str, path: Path | None = None) -> Section:
 
 
 def parameter_of(path: str, text: str, comment: str) -> Parameter:
-    """@param comment "what it is [unit]. Allowed: a number > 0." """
+    """@param comment "what it is [unit]. Allowed: a number > 0. Usual: 1 to 10." """
     explanation, _, allowed = comment.partition("Allowed: ")
     explanation = explanation.strip().rstrip(".").strip()
     unit = unit_of_text(explanation)
     if unit:
         explanation = explanation[:explanation.rindex("[")].strip()
-    allowed = allowed.strip().rstrip(".")
-    return Parameter(path, text, value_of(text, allowed), explanation, unit, allowed)
+    allowed, usual = (part.strip().rstrip(".") for part in allowed.partition("Usual: ")[::2])
+    return Parameter(path, text, value_of(text, allowed), explanation, unit, allowed, usual)
 
 
 def value_of(text: str, allowed: str = "") -> Value:
