@@ -1,5 +1,6 @@
 #pragma once
 
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "fe_dealii/material/elastic_parameters.h"
@@ -39,6 +40,9 @@ struct ImpactParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
 
   double sphere_mass() const; ///< [kg]
 

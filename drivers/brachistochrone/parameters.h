@@ -2,6 +2,7 @@
 
 #include "dem/simulation/simulation_parameters.h"
 #include "drivers/brachistochrone/path.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 
@@ -40,6 +41,9 @@ struct SlideParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
 
   Vec3 end() const { return {run, 0., -drop}; } ///< of the centre's path, which starts at the origin [m]
 

@@ -44,6 +44,8 @@ void add_options(CLI::App &app, CommandLine &command_line)
   app.add_flag("--quiet", command_line.quiet, "Show no progress and no table of results");
   app.add_flag_callback(
       "--no-plots", [&command_line] { command_line.plots = false; }, "Draw no pictures at the end");
+  app.add_flag("--dry-run", command_line.dry_run,
+               "Tell grains, elements, steps, time, memory and disk of the run, then stop");
   app.add_flag("--print-parameters", command_line.print_parameters,
                "Write a commented parameter file with the default values to standard output");
 }

@@ -2,6 +2,7 @@
 
 #include "dem/core/error.h"
 #include "drivers/common/dealii_start.h"
+#include "drivers/common/forecast/forecast_text.h"
 #include "drivers/common/interrupt.h"
 #include "drivers/common/mpi_start.h"
 #include "drivers/common/parameter_advice.h"
@@ -126,6 +127,12 @@ bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)
   }
   read_files_and_settings(parameters, command_line);
   return true;
+}
+
+int tell(const Forecast &forecast, const CommandLine &command_line)
+{
+  std::cout << text_of(forecast, command_line.output, room_for(command_line.output));
+  return done;
 }
 
 CommandLine warned_of(const ParameterFile &parameters, const CommandLine &command_line,

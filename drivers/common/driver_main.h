@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/common/command_line.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/parameter_file.h"
 
 #include <functional>
@@ -39,10 +40,14 @@ bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)
 CommandLine warned_of(const ParameterFile &parameters, const CommandLine &command_line,
                       const std::vector<std::string> &further = {});
 
+/// Tells what a run would be on standard output. @return done
+int tell(const Forecast &forecast, const CommandLine &command_line);
+
 /// The job of most drivers: reads and checks its parameters, then has a Job made of them go. A set of Parameters has
-/// declare() and validate(), and where some of them ask for MPI needs_mpi(), see run_with_mpi(); a Job is made of it,
-/// the command line and the resolved text of the parameters, and its go() gives the exit status. @param title first
-/// line of the parameter file
+/// declare(), validate(), forecast() for --dry-run, where some values are unwise beside others advice(), a line for
+/// each, and where some of them ask for MPI needs_mpi(), see run_with_mpi(); a Job is made of it, the command line and
+/// the resolved text of the parameters, and its go() gives the exit status. @param title first line of the parameter
+/// file
 template <class Parameters, class Job>
 int run_job(const std::string &title, const CommandLine &command_line)
 {
@@ -52,7 +57,12 @@ int run_job(const std::string &title, const CommandLine &command_line)
   if (!read_parameters(file, command_line))
     return done;
   parameters.validate();
-  const CommandLine warned = warned_of(file, command_line);
+  std::vector<std::string> further;
+  if constexpr (requires { parameters.advice(); })
+    further = parameters.advice();
+  const CommandLine warned = warned_of(file, command_line, further);
+  if (command_line.dry_run)
+    return tell(parameters.forecast(), command_line);
   const auto go = [&] { return Job(parameters, warned, file.resolved_text()).go(); };
   if constexpr (requires { parameters.needs_mpi(); })
     return parameters.needs_mpi() ? run_with_mpi(go) : go();

@@ -30,6 +30,8 @@ int job(const CommandLine &words)
     return done;
   parameters.validate();
   const CommandLine command_line = warned_of(file, words);
+  if (command_line.dry_run)
+    return tell(parameters.forecast(), command_line);
   require_apart(command_line.output, parameters.ensemble);
 
   RunFolder folder(command_line, {"fit_mohr_coulomb.json", "continuum.prm", "curves_grains.csv", "curves_continuum.csv",

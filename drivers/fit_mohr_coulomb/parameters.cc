@@ -66,6 +66,17 @@ void FitParameters::declare(ParameterFile &file)
            Range::strictly_between(0, 1));
 }
 
+Forecast FitParameters::forecast() const
+{
+  Forecast f;
+  f.files = {{"fit, parameters of the continuum and curves", 1, 1e6}};
+  f.unknown.emplace_back("the samples of " + ensemble + ", from which their number follows; a fit takes seconds" +
+                         std::string(hardening_is_wanted || sand.is_wanted ? ", that of a law minutes" : "") +
+                         ", and makes no step");
+  f.add_own_files(1, 0);
+  return f;
+}
+
 bool takes(const std::vector<double> &list, const double value)
 {
   return list.empty() ||

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/parameter_file.h"
 #include "drivers/fit_mohr_coulomb/fit.h"
 
@@ -58,6 +59,9 @@ struct FitParameters
 
   /// Throws ConfigError for values that do not go together.
   void validate() const { windows.validate(); }
+
+  /// What a run will be, for --dry-run.
+  Forecast forecast() const;
 };
 
 /// Whether a list takes a value: empty lists take all; numbers are equal to 1e-6 of their size.

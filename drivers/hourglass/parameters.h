@@ -2,6 +2,7 @@
 
 #include "dem/packing/pack_grains.h"
 #include "dem/simulation/simulation_parameters.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/grading_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
@@ -40,6 +41,9 @@ struct HourglassParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
 
   dem::PackingParameters packing() const;
   dem::SimulationParameters simulation_parameters() const; ///< all that is given here included

@@ -133,13 +133,17 @@ void MembraneTriaxialParameters::validate() const
   require_stable(simulation.time_step, "Test/time step");
 }
 
+double MembraneTriaxialParameters::smallest_radius() const
+{
+  return sizes.kind == SizeKind::gaussian  ? sizes.gaussian.smallest_half_axis
+         : sizes.kind == SizeKind::uniform ? 0.5 * sizes.uniform.smallest_diameter
+                                           : 0.5 * sizes.d10;
+}
+
 /// At an overlap of 1e-5 radii: no packing under load is softer.
 void MembraneTriaxialParameters::require_stable(const double time_step, const char *name) const
 {
-  const double radius = sizes.kind == SizeKind::gaussian  ? sizes.gaussian.smallest_half_axis
-                        : sizes.kind == SizeKind::uniform ? 0.5 * sizes.uniform.smallest_diameter
-                                                          : 0.5 * sizes.d10;
-  const double limit = dem::stable_step_of_two_spheres(radius, simulation.grain(), 1e-5);
+  const double limit = dem::stable_step_of_two_spheres(smallest_radius(), simulation.grain(), 1e-5);
   if (time_step > limit)
     reject(name, " is ", time_step, " s: it must stay below ", limit,
            " s, the stable step of two small grains in contact");

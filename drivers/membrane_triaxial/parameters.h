@@ -2,6 +2,7 @@
 
 #include "dem/measure/inertial_number.h"
 #include "dem/simulation/simulation_parameters.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/grading_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
@@ -74,6 +75,12 @@ struct MembraneTriaxialParameters
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
 
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
+
+  /// Warnings of values that are unwise beside others.
+  std::vector<std::string> advice() const;
+
   dem::SimulationParameters shrinking() const; ///< both with the membrane's material, see membrane_material
   dem::SimulationParameters testing() const;
 
@@ -91,6 +98,7 @@ struct MembraneTriaxialParameters
 
 private:
   void declare_sample(ParameterFile &file);
+  double smallest_radius() const; ///< of the grains, nearly [m]
   void require_stable(double time_step, const char *name) const;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/adapter/two_scale_model.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "drivers/overlap_waves/lattice.h"
@@ -53,6 +54,9 @@ struct WaveParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
 
   CubicLattice lattice() const { return press_lattice(radius, simulation.grain(), pressure); }
 

@@ -2,10 +2,11 @@
 
 #include "dem/packing/space.h"
 #include "dem/simulation/simulation_parameters.h"
+#include "drivers/common/forecast/forecast.h"
+#include "drivers/common/intruder.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "drivers/common/sand_parameters.h"
-#include "drivers/common/intruder.h"
 
 #include <cstdint>
 
@@ -33,6 +34,12 @@ struct PenetrationParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
+
+  /// Warnings of values that are unwise beside others.
+  std::vector<std::string> advice() const;
 
   IntruderShape shape() const;
   Intruder make_intruder(double height) const; ///< its lowest point at that height [m]

@@ -4,6 +4,7 @@
 #include "dem/packing/space.h"
 #include "dem/simulation/simulation_parameters.h"
 #include "drivers/common/continuum_parameters.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/intruder.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
@@ -69,6 +70,12 @@ struct InstallationParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
+
+  /// Warnings of values that are unwise beside others.
+  std::vector<std::string> advice() const;
 
   const char *model_name() const { return kind == GroundKind::grains ? "grains" : "two-scale"; }
   bool is_two_scale() const { return kind == GroundKind::two_scale; }

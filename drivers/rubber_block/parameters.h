@@ -2,6 +2,7 @@
 
 #include "dem/packing/space.h"
 #include "dem/simulation/simulation_parameters.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "drivers/common/sand_parameters.h"
@@ -67,6 +68,12 @@ struct RubberBlockParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
+
+  /// Warnings of values that are unwise beside others.
+  std::vector<std::string> advice() const;
 
   dem::SimulationParameters settling() const;
   dem::SimulationParameters pulling() const; ///< with the block's material, see block_material

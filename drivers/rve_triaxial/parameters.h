@@ -2,6 +2,7 @@
 
 #include "dem/packing/pack_grains.h"
 #include "dem/simulation/simulation.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/grading_parameters.h"
 #include "drivers/common/stage_parameters.h"
 
@@ -55,6 +56,9 @@ struct RveParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
 
   /// Every combination of edge, friction and pressure, n_samples times each, with seeds of their own. Samples that
   /// differ in the pressure alone have the same seed, and so the same packing.

@@ -3,6 +3,7 @@
 #include "dem/measure/hexahedron_grid.h"
 #include "dem/packing/pack_grains.h"
 #include "dem/simulation/simulation_parameters.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/grading_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
@@ -58,6 +59,9 @@ struct SiloParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
 
   double packing_height() const { return fill_height * expected_solid_fraction / packing_solid_fraction; } ///< [m]
 

@@ -26,6 +26,8 @@ enum Boundary : unsigned int
   footing
 };
 
+} // namespace
+
 fe::ExplicitBody make_ground(const FootingParameters &p)
 {
   const double size = p.element_size();
@@ -66,6 +68,9 @@ fe::ExplicitBody make_ground(const FootingParameters &p)
     body.initial_stress = fe::geostatic_stress(ground);
   return fe::ExplicitBody(mesh, body);
 }
+
+namespace
+{
 
 /// Downwards; from rest to a steady speed, and the settlement at the end.
 fe::TimeFunction velocity_of(const FootingParameters &p)

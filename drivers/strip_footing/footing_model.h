@@ -11,6 +11,9 @@
 namespace bergamo::driver
 {
 
+/// Elements of the ground with their stresses at rest, before the static start. Throws what mesh and material refuse.
+fe::ExplicitBody make_ground(const FootingParameters &parameters);
+
 /// Half of the ground under a strip footing, one element thick (plane strain): x from the axis, z upwards, the surface
 /// at z = 0.
 class FootingModel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/common/continuum_parameters.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "drivers/common/summary.h"
@@ -67,6 +68,9 @@ struct FootingParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
   bool needs_mpi() const { return true; } ///< its ground starts at rest
 
   /// Edge of an element [m]. The settlement falls from that of the last node held to nothing over the element beside

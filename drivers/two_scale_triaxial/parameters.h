@@ -6,6 +6,7 @@
 #include "dem/packing/distribution.h"
 #include "dem/simulation/simulation.h"
 #include "drivers/common/continuum_parameters.h"
+#include "drivers/common/forecast/forecast.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
 #include "drivers/two_scale_triaxial/interface.h"
@@ -60,6 +61,12 @@ struct TriaxialParameters
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
+
+  /// What a run will be, for --dry-run. Call after validate().
+  Forecast forecast() const;
+
+  /// Warnings of values that are unwise beside others.
+  std::vector<std::string> advice() const;
 
   /// The grains' parameters while they are packed.
   dem::SimulationParameters packing_simulation() const;
