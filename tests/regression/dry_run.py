@@ -72,6 +72,10 @@ class Forecasts(Case):
                     self.assertGreater(number_in(told["steps"][0]), 0)
                     self.assertIn("half to twice as long", told["time"][0])
 
+    def test_clumps(self):
+        told = self.forecast("rve_triaxial", ROOT / "drivers" / "rve_triaxial" / "clumps.prm")
+        self.assertGreater(number_in(told["grains"][0]), 0)
+
     def compare(self, driver, steps, *words):
         """Grains, elements, steps and size of the files as a run has them. @param steps of the forecast's lines"""
         told = self.forecast(driver, *words)

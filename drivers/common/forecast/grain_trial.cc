@@ -51,7 +51,9 @@ dem::Particles GrainTrial::packing(const double density) const
   parameters.solid_fraction = loose;
   parameters.density = density;
   const auto space = dem::PackingSpace::periodic({Vec3::Zero(), Vec3::Constant(edge)});
-  dem::Particles packed = sizes.pack(space, parameters, seed_of_trial).particles;
+  GradingParameters plain = sizes; // clumps cannot be packed so densely
+  plain.shape = ShapeKind::superquadrics;
+  dem::Particles packed = plain.pack(space, parameters, seed_of_trial).particles;
   const double shrinking = std::cbrt(loose / dense); // into contact
   for (Vec3 &place : packed.position)
     place *= shrinking;
@@ -80,8 +82,10 @@ double GrainTrial::seconds_of_step(const dem::SimulationParameters &parameters)
         simulation.step();
         simulation.rest(); // it stays the packing that it is
       });
+  // Every part of a clump counts as a grain of its own: some of them touch less, and all are smaller.
+  const double parts_per_grain = static_cast<double>(drawn.parts.size()) / n_grains();
   contacts_per_grain = simulation.contacts.n_touching() / n_tried;
-  return seconds * n_grains() / n_tried;
+  return parts_per_grain * seconds * n_grains() / n_tried;
 }
 
 double GrainTrial::stable_step(const double pressure) const
