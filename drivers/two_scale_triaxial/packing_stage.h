@@ -31,14 +31,14 @@ Stage stage_of(PackingStage &packing, double aim);
 /// What the loading starts from.
 struct LoadingStart
 {
-  dem::Box box;                      ///< of the grains or, without any, the cube
-  std::vector<Vec3> reference_by_id; ///< the grains' places
+  dem::Box box;                        ///< of the grains or, without any, the cube
+  std::vector<Vec3> reference_by_id{}; ///< the grains' places
   double solid_fraction = 0.;
   double coordination_number = 0.; ///< contacts a grain
 
   /// Of the whole packing, xx, yy and zz, a layer of elements each from the bottom, tension positive [Pa]: what the
   /// continuum takes over. Its zz is the mean over all layers, as balance asks for; the lateral ones may differ.
-  std::vector<Vec3> stress_by_layer;
+  std::vector<Vec3> stress_by_layer{};
 };
 
 /// Stops a packing's grains and walls where they are, for the loading. Where a continuum takes the lower part, the

@@ -21,7 +21,7 @@ struct SpecimenSample
   double residual = 0.;                                  ///< of the energy's balance since the first sample [J]
   double coordination_number = 0., largest_overlap = 0.; ///< of the grains; the overlap over the smaller radius
   double coupling_difference = 0.;                       ///< largest, between both models' displacements [m]
-  std::vector<coupling::SlabStress> profile;             ///< of the cube, a slab a layer of elements
+  std::vector<coupling::SlabStress> profile{};           ///< of the cube, a slab a layer of elements
 
   void add_figures(Summary &summary) const; ///< stresses, and how much the joint shows
 
