@@ -9,7 +9,8 @@
 namespace bergamo::driver
 {
 
-/// A warning where a time step is so far below what the contacts need that a run only takes longer by it, or none.
+/// A warning where a time step of grains alone is so far below what their contacts need that a run only takes longer by
+/// it, or none. Elements, penalties and surfaces ask for shorter steps, so it is no advice for runs with them.
 /// @param radius of the smallest grains [m]
 std::vector<std::string> advice_on_step(const NamedTime &step, double radius, const dem::Material &grain);
 

@@ -58,12 +58,7 @@ Forecast MembraneTriaxialParameters::forecast() const
 
 std::vector<std::string> MembraneTriaxialParameters::advice() const
 {
-  std::vector<std::string> advice;
-  for (const NamedTime &step :
-       {NamedTime{"Test/time step", simulation.time_step}, NamedTime{"Mould/time step", mould.time_step}})
-    for (const std::string &line : advice_on_step(step, smallest_radius(), simulation.grain()))
-      advice.push_back(line);
-  return advice;
+  return advice_on_step({"Mould/time step", mould.time_step}, smallest_radius(), simulation.grain());
 }
 
 } // namespace bergamo::driver

@@ -63,13 +63,13 @@ Forecast InstallationParameters::forecast() const
 
 std::vector<std::string> InstallationParameters::advice() const
 {
-  std::vector<std::string> advice = advice_on_step({"Pile/time step", simulation.time_step},
-                                                   sand.distribution.smallest_half_axis, simulation.grain());
-  if (is_two_scale() && !continuum.is_sand())
-    for (const std::string &line : advice_on_penalty(coupling.penalty, 2. * sand.distribution.mean_half_axes.mean(),
-                                                     continuum.mohr_coulomb.young_modulus))
-      advice.push_back(line);
-  return advice;
+  if (!is_two_scale())
+    return advice_on_step({"Pile/time step", simulation.time_step}, sand.distribution.smallest_half_axis,
+                          simulation.grain());
+  if (continuum.is_sand())
+    return {};
+  return advice_on_penalty(coupling.penalty, 2. * sand.distribution.mean_half_axes.mean(),
+                           continuum.mohr_coulomb.young_modulus);
 }
 
 } // namespace bergamo::driver

@@ -1,6 +1,5 @@
 #include "drivers/common/forecast/forecast_parts.h"
 #include "drivers/common/forecast/step_trial.h"
-#include "drivers/common/step_advice.h"
 #include "drivers/rubber_block/block.h"
 #include "drivers/rubber_block/parameters.h"
 
@@ -23,12 +22,6 @@ Forecast RubberBlockParameters::forecast() const
   f.add_own_files(output.snapshot_interval, f.n_grains * bytes_of_grain);
   f.unknown.emplace_back("how far grains sink into the block, which decides the stable step");
   return f;
-}
-
-std::vector<std::string> RubberBlockParameters::advice() const
-{
-  return advice_on_step({"Pull/time step", simulation.time_step}, sand.distribution.smallest_half_axis,
-                        simulation.grain());
 }
 
 } // namespace bergamo::driver

@@ -72,9 +72,6 @@ struct RubberBlockParameters
   /// What a run will be, for --dry-run. Call after validate().
   Forecast forecast() const;
 
-  /// Warnings of values that are unwise beside others.
-  std::vector<std::string> advice() const;
-
   dem::SimulationParameters settling() const;
   dem::SimulationParameters pulling() const; ///< with the block's material, see block_material
 

@@ -86,10 +86,12 @@ std::vector<std::string> TriaxialParameters::advice() const
   std::vector<std::string> advice;
   const auto add = [&](const std::vector<std::string> &lines)
   { advice.insert(advice.end(), lines.begin(), lines.end()); };
+  const auto add_of_step = [&](const NamedTime &step)
+  { add(advice_on_step(step, distribution.smallest_half_axis, simulation.grain())); };
   if (has_grains())
-    for (const NamedTime &step :
-         {NamedTime{"Loading/time step", simulation.time_step}, NamedTime{"Packing/time step", packing_time_step}})
-      add(advice_on_step(step, distribution.smallest_half_axis, simulation.grain()));
+    add_of_step({"Packing/time step", packing_time_step});
+  if (kind == ModelKind::grains)
+    add_of_step({"Loading/time step", simulation.time_step});
   if (kind == ModelKind::two_scale && !continuum.is_sand())
     add(advice_on_penalty(coupling.penalty, 2. * distribution.mean_half_axes.mean(),
                           continuum.mohr_coulomb.young_modulus));

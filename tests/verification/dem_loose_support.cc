@@ -124,7 +124,7 @@ TEST_CASE("a grain that leans a little does not rock itself up, however its cont
         p.contact.overlap_tolerance = tolerance;
         Simulation s = resting(p, rest, shape, leaning(0.003));
         double largest[2] = {0., 0.};
-        constexpr int n_steps = 500000;
+        constexpr int n_steps = 250000;
         for (int n = 0; n < n_steps; ++n)
         {
           s.step();
