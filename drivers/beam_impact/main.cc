@@ -80,6 +80,7 @@ int ImpactRun::go()
   History history = run.history(table);
   Stage stage = run.even_stage("impact", n_steps, impact.time_step());
   stage.n_particles = 1;
+  stage.time = [&] { return impact.time(); }; // that of the rows
   stage.compute = [&] { impact.compute(); };
   stage.move = [&] { impact.move(); };
   const auto add_picture = [&] { pictures.add(impact.time(), pictures_of(&impact.simulation(), &impact.body())); };

@@ -76,6 +76,7 @@ int WaveRun::go()
   const std::int64_t n_steps = parameters.n_steps();
   Stage stage = run.even_stage("pulse", n_steps, parameters.simulation.time_step);
   stage.n_particles = static_cast<std::int64_t>(column->model.grains()->particles.size());
+  stage.time = [&] { return column->time(); }; // that of the rows
   stage.compute = [&] { column->compute(); };
   stage.move = [&] { column->move(); };
   const auto look = [&]

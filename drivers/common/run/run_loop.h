@@ -14,7 +14,8 @@ namespace bergamo::driver
 /// How a run goes one step on, and how far.
 struct Stepping
 {
-  std::function<double()> time;       ///< simulated, of the present step [s]
+  /// Simulated, of the present step, and of a row that it writes, to the last bit: a restart keeps rows up to it [s].
+  std::function<double()> time;
   std::function<bool()> is_last;      ///< whether the present step ends the stage; asked before and after compute
   std::function<void()> compute;      ///< forces and kick: energies and loads can be read from here on
   std::function<void()> move = [] {}; ///< to the next step; not called at the last one
