@@ -6,13 +6,13 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
+#include "tests/same_bits.h"
 #include "tests/threads.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <random>
 
@@ -86,16 +86,6 @@ struct Everything
     body.drift(dt);
   }
 };
-
-bool same_bits(ExplicitBody &a, ExplicitBody &b)
-{
-  const auto x = a.state(), y = b.state();
-  bool same = x.size() == y.size();
-  for (std::size_t k = 0; same && k < x.size(); ++k)
-    same = x[k].second.size() == y[k].second.size() &&
-           std::memcmp(x[k].second.data(), y[k].second.data(), x[k].second.size_bytes()) == 0;
-  return same;
-}
 
 } // namespace
 
