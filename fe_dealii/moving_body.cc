@@ -233,6 +233,7 @@ void MovingBody::kick(const double dt)
     let_go_of_dashpots();
   const Kick kick{ledger_.last_step > 0 ? ledger_.last_step : dt, dt, kick_time(dt),
                   0.5 * forces_.damping * kick_time(dt)};
+  kick_images(kick);
   const std::size_t n_blocks = (n_nodes() + block_nodes - 1) / block_nodes;
   std::vector<KickSums> sums(n_blocks);
   parallel_ranges(n_blocks, 1,
@@ -273,7 +274,7 @@ MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t 
   KickSums sums;
   for (std::size_t node = begin; node < end; ++node)
   {
-    const bool is_braked = dashpots_.has(node);
+    const bool is_braked = dashpots_.has(node), is_imaged = images_.has(node);
     const Braked braked = is_braked ? brake(kick, node) : Braked{};
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -284,14 +285,14 @@ MovingBody::KickSums MovingBody::kick_nodes(const Kick &kick, const std::size_t 
       const double force = external + weight - internal_force_[dof];
       const int constraint = constraint_of_dof_[dof];
       double fresh, damping, reaction = 0;
-      if (constraint < 0)
+      if (constraint < 0 && !is_imaged)
       {
         fresh = is_braked ? braked.velocity[i] : kick.velocity_after(old, force, mass);
         damping = 0.5 * forces_.damping * mass * (old + fresh);
       }
       else
       {
-        fresh = constraint_velocity_[constraint];
+        fresh = is_imaged ? imaged_velocity_[dof] : constraint_velocity_[constraint];
         damping = 0.5 * forces_.damping * mass * (old + fresh);
         reaction = mass * (fresh - old) / kick.time + damping + drag - force;
       }
@@ -351,6 +352,9 @@ void MovingBody::add_dashpots(const std::span<const Dashpot> dashpots)
     if (dashpot.node >= n_nodes() || dashpot.element >= n_elements())
       reject(name_, ": a dashpot at node ", dashpot.node, " of element ", dashpot.element, ", but there are only ",
              n_nodes(), " nodes and ", n_elements(), " elements");
+  for (const Dashpot &dashpot : dashpots)
+    if (images_.has(dashpot.node))
+      reject(name_, ": a dashpot at node ", dashpot.node, " of a face that repeats itself; put dashpots elsewhere");
   dashpots_.add(dashpots, n_nodes());
   held_force_.assign(3 * n_nodes(), 0.);
   progress_.is_rested = 0;
@@ -398,7 +402,7 @@ void MovingBody::rest()
   {
     velocity_[dof] = 0;
     const double force = external_force_[dof] + weight(dof) - internal_force_[dof];
-    reaction_force_[dof] = constraint_of_dof_[dof] < 0 ? 0 : -force;
+    reaction_force_[dof] = constraint_of_dof_[dof] < 0 && !images_.has(dof / 3) ? 0 : -force;
     if (is_held_by_dashpots(dof))
       held_force_[dof] = -force;
   }
@@ -442,16 +446,71 @@ MovingBody::Constraint MovingBody::prescribe_velocity(const std::span<const unsi
       reject(name_, ": a velocity is prescribed at node ", node, ", but there are only ", n_nodes(), " nodes");
   const Constraint constraint(constraint_velocity_.size());
   auto &dofs = constraint_dofs_.emplace_back();
-  for (const unsigned int node : nodes)
+  const auto prescribe = [&](const unsigned int node)
   {
     const std::size_t dof = 3 * std::size_t(node) + component;
     if (constraint_of_dof_[dof] >= 0 && !is_held_by_dashpots(dof))
-      continue;
+      return;
     constraint_of_dof_[dof] = static_cast<int>(constraint.place());
     dofs.push_back(dof);
-  }
+  };
+  for (const unsigned int node : nodes)
+    if (!images_.has(node))
+      prescribe(node);
+  for (const NodeImages::Group &group : images_.groups())
+    if (std::find_first_of(nodes.begin(), nodes.end(), group.nodes.begin(), group.nodes.end()) != nodes.end())
+      std::for_each(group.nodes.begin(), group.nodes.end(), prescribe);
   constraint_velocity_.push_back(velocity);
   return constraint;
+}
+
+void MovingBody::repeat(const std::array<bool, 3> is_periodic)
+{
+  if (!constraint_velocity_.empty() || !dashpots_.empty())
+    reject(name_, ": it is to repeat itself, but velocities are prescribed or dashpots put already; let it repeat "
+                  "itself first");
+  images_ = NodeImages(node_position_, is_periodic);
+  imaged_velocity_.assign(velocity_.size(), 0.);
+}
+
+void MovingBody::set_face_velocity(const std::array<double, 3> &velocity)
+{
+  for (std::size_t d = 0; d < 3; ++d)
+    face_velocity_[d] = images_.is_periodic()[d] ? velocity[d] : 0.;
+}
+
+std::array<double, 3> MovingBody::face_force(const std::size_t direction) const
+{
+  std::array<double, 3> sum{};
+  for (const NodeImages::Group &group : images_.groups())
+    for (std::size_t k = 0; k < group.nodes.size(); ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        sum[i] += group.shift[k][direction] * reaction_force_[3 * std::size_t(group.nodes[k]) + i];
+  return sum;
+}
+
+/// What images get by a kick. Their forces on one another are reactions, whose work on both is that of the faces.
+void MovingBody::kick_images(const Kick &kick)
+{
+  for (const NodeImages::Group &group : images_.groups())
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      double mass = 0, momentum = 0, pushed = 0, force = 0; // momenta of what they had, and of what faces give
+      for (std::size_t k = 0; k < group.nodes.size(); ++k)
+      {
+        const std::size_t node = group.nodes[k], dof = 3 * node + i;
+        mass += mass_[dof];
+        momentum += mass_[dof] * velocity_[dof];
+        pushed += mass_[dof] * group.shift[k][i] * face_velocity_[i];
+        force += external_force_[dof] + weight(dof) - internal_force_[dof];
+      }
+      const int constraint = constraint_of_dof_[3 * std::size_t(group.nodes[0]) + i];
+      const double first = constraint >= 0 ? constraint_velocity_[constraint]
+                           : mass == 0     ? 0
+                                           : kick.velocity_after(momentum / mass, force, mass) - pushed / mass;
+      for (std::size_t k = 0; k < group.nodes.size(); ++k)
+        imaged_velocity_[3 * std::size_t(group.nodes[k]) + i] = first + group.shift[k][i] * face_velocity_[i];
+    }
 }
 
 void MovingBody::make_rigid(const std::span<const unsigned int> nodes)
@@ -544,6 +603,8 @@ std::vector<std::pair<std::string, std::span<double>>> MovingBody::state()
       {"progress", {reinterpret_cast<double *>(&progress_), sizeof(Progress) / sizeof(double)}}};
   if (!dashpots_.empty())
     result.push_back({"held_force", held_force_});
+  if (!images_.empty())
+    result.push_back({"face_velocity", face_velocity_});
   for (auto &view : elements_->state())
     result.push_back(std::move(view));
   return result;

@@ -4,6 +4,7 @@
 #include "dem/core/rows.h"
 #include "fe_dealii/body_energy.h"
 #include "fe_dealii/boundary/dashpots.h"
+#include "fe_dealii/boundary/node_images.h"
 #include "fe_dealii/element/element_group.h"
 
 #include <array>
@@ -131,6 +132,25 @@ public:
   double reaction(Constraint constraint) const;
   /// @}
 
+  /// @name A body that repeats itself
+  /// Nodes at the same place of opposite faces are images of one another: they get the forces of all of them together.
+  /// @{
+
+  /// Along directions of the global frame, before any velocity is prescribed or dashpot put. A velocity that is
+  /// prescribed at one of these nodes is so at its images. Throws ConfigError where opposite faces are not meshed
+  /// alike, or for a body with prescribed velocities or dashpots.
+  void repeat(std::array<bool, 3> is_periodic);
+
+  /// Of the upper faces against the lower ones [m/s]; along directions that do not repeat themselves it says nothing.
+  void set_face_velocity(const std::array<double, 3> &velocity);
+
+  const NodeImages &images() const { return images_; }
+
+  /// Force on the upper face of a direction from its surroundings, as the last kick had it, opposite to that on the
+  /// lower one: the body's mean stress there times the area [N].
+  std::array<double, 3> face_force(std::size_t direction) const;
+  /// @}
+
   /// @name Nodal vectors, length 3 * n_nodes()
   /// @{
   std::span<double> displacement() { return displacement_; }     ///< [m]
@@ -229,6 +249,10 @@ private:
   std::vector<std::vector<unsigned int>> constraint_dofs_;
   std::vector<double> constraint_velocity_;
 
+  NodeImages images_;
+  std::array<double, 3> face_velocity_{}; // of upper faces against lower ones [m/s]
+  std::vector<double> imaged_velocity_;   // of nodes with images after the kick, by degree of freedom [m/s]
+
   Dashpots dashpots_;
   std::optional<Constraint> hold_; // of the dashpots until the first kick
   std::vector<double> held_force_; // of all dofs; none without dashpots
@@ -264,6 +288,7 @@ private:
   struct KickSums;
   struct Braked;
   Braked brake(const Kick &kick, std::size_t node) const;
+  void kick_images(const Kick &kick);
   KickSums kick_nodes(const Kick &kick, std::size_t begin, std::size_t end);
   bool has_moved() const; // since the forces were computed
 };

@@ -21,7 +21,7 @@ using Gram = std::array<Motion, 6>;
 
 constexpr double negligible = 1e-9; // of squares, against the largest
 
-/// Nodes that share elements, in pieces.
+/// Nodes that share elements, or are images of one another, in pieces.
 std::vector<std::vector<unsigned int>> pieces_of(const MovingBody &body)
 {
   std::vector<unsigned int> parent(body.n_nodes());
@@ -32,10 +32,14 @@ std::vector<std::vector<unsigned int>> pieces_of(const MovingBody &body)
       node = parent[node] = parent[parent[node]];
     return node;
   };
+  const auto join = [&](const unsigned int a, const unsigned int b)
+  { parent[std::max(root(a), root(b))] = std::min(root(a), root(b)); };
   for (std::size_t e = 0; e < body.n_elements(); ++e)
     for (const unsigned int node : body.element_nodes(e))
-      parent[std::max(root(node), root(body.element_nodes(e)[0]))] =
-          std::min(root(node), root(body.element_nodes(e)[0]));
+      join(node, body.element_nodes(e)[0]);
+  for (const NodeImages::Group &group : body.images().groups())
+    for (const unsigned int node : group.nodes)
+      join(node, group.nodes[0]);
   std::vector<std::vector<unsigned int>> of_root(body.n_nodes()), pieces;
   for (unsigned int node = 0; node < body.n_nodes(); ++node)
     of_root[root(node)].push_back(node);
@@ -55,29 +59,41 @@ double norm(const Vector &a)
   return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
-/// Σ r rᵀ over the held dofs, r what the six rigid motions move them by.
+/// Σ r rᵀ over the held dofs, r what the six rigid motions move them by, and over what images have to move alike by.
 Gram held_motions(const MovingBody &body, const std::vector<unsigned int> &nodes, const Vector &centre,
                   const double size)
 {
   Gram gram{};
+  const auto row_of = [&](const unsigned int node, const std::size_t i)
+  {
+    Motion row{};
+    row[3 + i] = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      Vector turn{}, arm{};
+      turn[axis] = 1;
+      for (std::size_t k = 0; k < 3; ++k)
+        arm[k] = (body.node_position()[node][k] - centre[k]) / size;
+      row[axis] = cross(turn, arm)[i];
+    }
+    return row;
+  };
+  const auto add = [&](const Motion &row)
+  {
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b)
+        gram[a][b] += row[a] * row[b];
+  };
   for (const unsigned int node : nodes)
     for (std::size_t i = 0; i < 3; ++i)
     {
-      if (!body.constraint_of(3 * std::size_t(node) + i))
-        continue;
-      Motion row{};
-      row[3 + i] = 1;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        Vector turn{}, arm{};
-        turn[axis] = 1;
-        for (std::size_t k = 0; k < 3; ++k)
-          arm[k] = (body.node_position()[node][k] - centre[k]) / size;
-        row[axis] = cross(turn, arm)[i];
-      }
-      for (int a = 0; a < 6; ++a)
-        for (int b = 0; b < 6; ++b)
-          gram[a][b] += row[a] * row[b];
+      if (body.constraint_of(3 * std::size_t(node) + i))
+        add(row_of(node, i));
+      Motion apart = row_of(node, i);
+      const Motion first = row_of(body.images().first_of(node), i);
+      for (int k = 0; k < 6; ++k)
+        apart[k] -= first[k];
+      add(apart);
     }
   return gram;
 }

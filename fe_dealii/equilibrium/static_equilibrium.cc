@@ -12,6 +12,7 @@
 #include <numeric>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bergamo::fe
@@ -132,6 +133,11 @@ private:
       applied += force * force;
       residual[dof] = body.constraint_of(dof) ? 0 : force - body.internal_force()[dof];
     }
+    for (const NodeImages::Group &group : body.images().groups()) // act together
+      for (std::size_t k = 1; k < group.nodes.size(); ++k)
+        for (std::size_t i = 0; i < 3; ++i)
+          residual[3 * std::size_t(group.nodes[0]) + i] +=
+              std::exchange(residual[3 * std::size_t(group.nodes[k]) + i], 0.);
     const double out_of_balance = std::sqrt(dot(residual, residual));
     return out_of_balance == 0 ? 0 : out_of_balance / std::sqrt(std::max(internal, applied));
   }
@@ -280,6 +286,9 @@ EquilibriumReport find_equilibrium(ExplicitBody &body, const EquilibriumParamete
   if (std::find(body.mass().begin(), body.mass().end(), 0.) != body.mass().end())
     reject("continuum: it has absent elements (ExplicitBody::set_share()), which have no equilibrium; bring it to rest "
            "before they are left out");
+  if (parameters.duration != 0 && !body.images().empty())
+    reject("static equilibrium: motions over ", parameters.duration,
+           " s are prescribed of a body that repeats itself; its faces have to rest: choose a duration of 0");
   require_held(body);
   return Newton(body, parameters).run();
 }

@@ -48,14 +48,19 @@ TangentSystem::TangentSystem(const ExplicitBody &body, const std::size_t direct_
   const std::size_t n_dofs = 3 * body.n_nodes();
   trilinos->is_direct = n_dofs <= direct_limit;
   dealii::DynamicSparsityPattern pattern(n_dofs, n_dofs);
+  for (const NodeImages::Group &group : body.images().groups())
+    for (const unsigned int node : group.nodes)
+      for (unsigned int i = 0; i < 3; ++i)
+        pattern.add(3 * node + i, 3 * node + i);
   std::vector<unsigned int> columns;
   for (std::size_t e = 0; e < body.n_elements(); ++e)
   {
     columns.clear();
     for (const unsigned int node : body.element_nodes(e))
       for (unsigned int i = 0; i < 3; ++i)
-        columns.push_back(3 * node + i);
+        columns.push_back(3 * body.images().first_of(node) + i);
     std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     for (const unsigned int row : columns)
       pattern.add_entries(row, columns.begin(), columns.end(), true);
   }
@@ -83,10 +88,12 @@ void TangentSystem::Trilinos::assemble(const ExplicitBody &body, const ElementMa
     for (std::size_t e = first; e < end; ++e)
     {
       for (std::size_t k = 0; k < n; ++k)
-        dofs[k] = 3 * std::size_t(elements.nodes(e)[k / 3]) + k % 3;
+        dofs[k] = 3 * std::size_t(body.images().first_of(elements.nodes(e)[k / 3])) + k % 3;
       for (std::size_t row = 0; row < n; ++row)
       {
         const double *const entries = &matrices[((e - first) * n + row) * n];
+        if (const std::size_t own = 3 * std::size_t(elements.nodes(e)[row / 3]) + row % 3; own != dofs[row])
+          matrix.add(own, own, std::abs(entries[row])); // of an image, whose own equation is empty
         if (body.constraint_of(dofs[row]))
         {
           matrix.add(dofs[row], dofs[row], std::abs(entries[row])); // of the others' size, for their scaling
@@ -198,7 +205,8 @@ unsigned int TangentSystem::solve(const std::span<const double> residual, const 
   }
   for (std::size_t dof = 0; dof < increment.size(); ++dof)
   {
-    increment[dof] = body.constraint_of(dof) ? 0 : trilinos->left[dof];
+    increment[dof] =
+        body.constraint_of(dof) ? 0 : trilinos->left[3 * std::size_t(body.images().first_of(dof / 3)) + dof % 3];
     if (!std::isfinite(increment[dof]))
       throw RunError("static equilibrium: the linear system has no finite solution, its stiffness is singular");
   }
