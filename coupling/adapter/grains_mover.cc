@@ -57,8 +57,8 @@ double GrainsMover::stable_step()
 MoverEnergy GrainsMover::energy() const
 {
   const dem::GrainEnergy e = grains_->energy();
-  double work =
-      e.wall_work + e.gravity_work + e.curvature_work + e.search_work + e.quadrature_work + e.exchanged + e.step_change;
+  double work = e.wall_work + e.cell_work + e.gravity_work + e.curvature_work + e.search_work + e.quadrature_work +
+                e.exchanged + e.step_change;
   for (const std::int32_t surface : shared_surfaces_)
     work -= grains_->surfaces[surface].work;
   return {e.kinetic, e.normal + e.tangential, e.friction_loss + e.viscous_loss, work};

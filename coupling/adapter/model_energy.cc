@@ -13,7 +13,7 @@ ModelEnergy energy_of(const TwoScaleModel &model)
     e.grains_elastic = g.normal + g.tangential;
     e.friction_loss = g.friction_loss;
     e.viscous_loss += g.viscous_loss;
-    e.wall_work += g.wall_work;
+    e.wall_work += g.wall_work + g.cell_work;
     e.gravity_work += g.gravity_work;
     e.curvature_work = g.curvature_work;
     e.search_work = g.search_work;

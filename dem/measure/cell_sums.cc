@@ -86,6 +86,21 @@ void CellSums::add_within(const Box &box, const Mat3 &stress_volume)
             part(i, 0) * part(j, 1) * part(k, 2) * stress_volume;
 }
 
+std::vector<Vec3> CellSums::shifts(const PeriodicCell &cell) const
+{
+  std::vector<Vec3> shifts{Vec3::Zero()};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!is_cut(axis) || !std::isfinite(cell.edges[axis]))
+      continue;
+    const std::vector<Vec3> before = shifts;
+    for (const double sign : {-1., 1.})
+      for (const Vec3 &shift : before)
+        shifts.emplace_back(shift + sign * cell.edges[axis] * Vec3::Unit(axis));
+  }
+  return shifts;
+}
+
 std::vector<Mat3> CellSums::means() const
 {
   std::vector<Mat3> means = sums_;
@@ -99,7 +114,9 @@ void add_contacts(CellSums &cells, const std::span<const TouchingContact> contac
   for (const TouchingContact &contact : contacts)
   {
     const Vec3 &from = particles.position[contact.first];
-    cells.add_along(from, from + contact.branch, contact.branch * force_on_body1(contact).transpose());
+    const Mat3 moment = contact.branch * force_on_body1(contact).transpose();
+    for (const Vec3 &shift : cells.shifts(particles.cell))
+      cells.add_along(from + shift, from + shift + contact.branch, moment);
   }
 }
 

@@ -26,6 +26,10 @@ public:
   /// Of something even in a box. One without volume is a line, a face or a place.
   void add_within(const Box &box, const Mat3 &stress_volume);
 
+  /// Those of the images of a periodic cell that may reach into the grid along the axes that it cuts, itself included
+  /// [m]: what lies anywhere belongs to the cells of all of them together, if the grid fills the periodic cell.
+  std::vector<Vec3> shifts(const PeriodicCell &cell) const;
+
   const std::vector<Mat3> &sums() const { return sums_; } ///< [N m], a cell each, in the order of HexahedronGrid
   std::vector<Mat3> means() const;                        ///< over the volume of a cell: stresses [Pa]
 
@@ -48,7 +52,7 @@ private:
 
 /// Adds contacts, each even along its branch with its weight: the mean stress of each cell is then that of Love (1927),
 /// a contact that crosses a face counted in both cells by its parts, where mean_stress() of a cell gives all of it to
-/// the cell of its point. Not for periodic cells.
+/// the cell of its point. In a periodic cell, which the grid has to fill, with their images.
 void add_contacts(CellSums &cells, std::span<const TouchingContact> contacts, const Particles &particles);
 
 } // namespace bergamo::dem

@@ -52,6 +52,8 @@ double return_to_cell(Particles &particles)
   double change = 0.;
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
+    if (particles.weight[i] < 1.) // tied to its place in a continuum
+      continue;
     const Vec3 edges_over = (particles.position[i].array() / cell.edges.array()).floor();
     if (edges_over == Vec3::Zero())
       continue;

@@ -36,7 +36,9 @@ struct CellWork
   }
 };
 
-/// Puts grains that have left the cell back into it, with the velocities of their images.
+/// Puts grains that have left the cell back into it, with the velocities of their images; those of a weight below 1
+/// stay, since they are tied to places of a continuum. Neighbours are found wherever grains are, up to a quarter of an
+/// edge beyond the cell.
 /// @return change of the kinetic energy [J]
 double return_to_cell(Particles &particles);
 

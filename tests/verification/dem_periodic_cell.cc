@@ -1,5 +1,6 @@
 #include "dem/core/error.h"
 #include "dem/io/snapshot.h"
+#include "dem/measure/cell_sums.h"
 #include "dem/motion/cell_control.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -305,6 +307,70 @@ TEST_CASE("no place of a periodic cell is special")
   CHECK((one.edges - other.edges).norm() < 1e-5 * change.norm());
   CHECK((cells[0].simulation->cell_stress() - cells[1].simulation->cell_stress()).norm() <
         1e-5 * cells[0].simulation->cell_stress().norm());
+}
+
+TEST_CASE("grains that are tied to places of a continuum leave a periodic cell, and meet the images that they would")
+{
+  // All of half a weight: the same motion as with the whole, at half of the forces, and none is put back.
+  constexpr double speed = 20., rate = -5.; // through the faces [m/s], of strain [1/s]
+  constexpr int n_steps = 500;
+  std::vector<std::unique_ptr<Simulation>> cells;
+  for (const double weight : {1., 0.5})
+  {
+    Simulation &s = *cells.emplace_back(std::make_unique<Simulation>(*pressed_copy()));
+    std::vector<std::int32_t> all(s.particles.size());
+    std::iota(all.begin(), all.end(), 0);
+    s.change_weights(all, std::vector<double>(all.size(), weight));
+    for (Vec3 &v : s.particles.velocity)
+      v[0] += speed;
+    CellControl control{CellControlParameters{}};
+    for (int k = 0; k < n_steps; ++k)
+    {
+      s.compute_forces();
+      control.act(s.particles.cell, {AxisControl::of_rate(rate), AxisControl::of_rate(0.), AxisControl::of_rate(0.)},
+                  s.cell_stress(), s.parameters().time_step);
+      s.integrate();
+    }
+    s.compute_forces();
+  }
+  const Vec3 &edges = cells[0]->particles.cell.edges;
+  const double way = n_steps * sand().time_step * speed;
+  double farthest = 0., greatest = 0.;
+  for (std::size_t i = 0; i < cells[0]->particles.size(); ++i)
+  {
+    const std::int64_t id = cells[0]->particles.id[i];
+    const Vec3 &tied = cells[1]->particles.position[cells[1]->index_of(id)];
+    farthest = std::max(farthest, tied[0] - edges[0]);
+    Vec3 apart = tied - cells[0]->particles.position[i];
+    apart -= edges.cwiseProduct(apart.cwiseQuotient(edges).array().round().matrix());
+    greatest = std::max(greatest, apart.norm());
+  }
+  REQUIRE(farthest > 0.5 * way);
+  // Contacts of other weights were searched anew: what they had been off by, within the tolerance of overlaps.
+  CHECK(greatest < 1e-5 * way);
+  CHECK((2. * cells[1]->cell_stress() - cells[0]->cell_stress()).norm() < 1e-3 * cells[0]->cell_stress().norm());
+}
+
+TEST_CASE("slabs of a periodic cell bear together what it bears, wherever grains and cuts are")
+{
+  const auto simulation = pressed_copy();
+  simulation->compute_forces();
+  const Particles &p = simulation->particles;
+  const std::vector<TouchingContact> contacts = simulation->contacts.touching(p);
+  const Vec3 stress = simulation->cell_stress();
+  for (const auto &cells : {std::array{1, 1, 4}, std::array{3, 2, 1}, std::array{2, 3, 2}})
+  {
+    CellSums sums({{Vec3::Zero(), p.cell.edges}, cells});
+    add_contacts(sums, contacts, p);
+    Vec3 sum = Vec3::Zero();
+    for (const Mat3 &of_cell : sums.sums())
+      sum += of_cell.diagonal();
+    CHECK((sum / p.cell.volume() - stress).norm() < 1e-11 * stress.norm());
+  }
+  CellSums slabs({{Vec3::Zero(), p.cell.edges}, {1, 1, 3}});
+  add_contacts(slabs, contacts, p);
+  for (const Mat3 &slab : slabs.means()) // but for what accelerates grains
+    CHECK(slab(2, 2) == Approx(stress[2]).epsilon(0.02));
 }
 
 TEST_CASE("a periodic cell under control has the same bits on any number of threads and after a restart")
