@@ -22,7 +22,7 @@ function(bergamo_install component)
     COMPONENT ${component} FILES_MATCHING PATTERN "*.h")
 endfunction()
 
-bergamo_install(dem FOLDER dem TARGETS bergamo_core bergamo_dem)
+bergamo_install(dem FOLDER dem TARGETS bergamo_core bergamo_dem_step bergamo_dem)
 if(BERGAMO_WITH_FE)
   bergamo_install(fe FOLDER fe_dealii TARGETS bergamo_fe)
   bergamo_install(coupling FOLDER coupling TARGETS bergamo_coupling bergamo_adapter)
