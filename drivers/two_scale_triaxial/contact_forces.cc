@@ -9,14 +9,14 @@
 namespace bergamo::driver
 {
 
-void write_contact_forces(const std::filesystem::path &path, const dem::Simulation &grains, const Interface &interface)
+void write_contact_forces(const std::filesystem::path &path, const dem::Simulation &grains, const Layout &layout)
 {
   const dem::Particles &p = grains.particles;
-  const auto is_above = [&](const Vec3 &centre) { return centre[2] > interface.top(centre[0]); };
   std::vector<std::vector<double>> rows;
   for (const dem::TouchingContact &contact : grains.contacts.touching(p))
   {
-    if (!is_above(p.position[contact.first]) || !is_above(p.position[contact.second]))
+    if (!is_of_grains_alone(layout, p.position[contact.first]) ||
+        !is_of_grains_alone(layout, p.position[contact.second]))
       continue;
     const Vec3 force = contact.state.force();
     const double magnitude = force.norm();

@@ -32,28 +32,42 @@ fe::InitialStress initial_stress(const TriaxialParameters &parameters, const Loa
   };
 }
 
-/// Bricks up to a flat face, less those above a step, stretched to the face.
-void make_mesh(const TriaxialParameters &parameters, const dem::Box &cube, dealii::Triangulation<3> &mesh)
+/// The bricks of some layers. @param low height of the lowest one [m]
+fe::PitMeshParameters bricks(const ElementLayers &layers, const dem::Box &specimen, const double low,
+                             const unsigned int n_layers)
 {
-  const bool is_joined = parameters.kind == ModelKind::two_scale;
-  const unsigned int n = parameters.layers.per_edge, n_layers = is_joined ? parameters.layers.continuum : n;
   fe::PitMeshParameters bricks;
-  for (int axis = 0; axis < 3; ++axis)
-    for (unsigned int k = 0; k <= (axis == 2 ? n_layers : n); ++k)
-      bricks.planes[axis].push_back(cube.low[axis] + cube.edges()[axis] * k / n);
-  const Interface interface = parameters.interface(cube);
-  if (is_joined && interface.step() < cube.high[0])
+  const Vec3 edges = specimen.edges();
+  for (int axis = 0; axis < 2; ++axis)
+    for (unsigned int k = 0; k <= layers.per_edge; ++k)
+      bricks.planes[axis].push_back(specimen.low[axis] + edges[axis] * k / layers.per_edge);
+  for (unsigned int k = 0; k <= n_layers; ++k)
+    bricks.planes[2].push_back(low + edges[2] * k / layers.high());
+  return bricks;
+}
+
+/// Bricks up to a flat face, less those above a step, stretched to the face.
+void make_mesh(const ElementLayers &layers, const dem::Box &cube, const Interface &interface,
+               dealii::Triangulation<3> &mesh)
+{
+  fe::PitMeshParameters flat = bricks(layers, cube, cube.low[2], layers.continuum);
+  if (interface.step() < cube.high[0])
   {
     constexpr double everywhere = std::numeric_limits<double>::infinity();
-    bricks.hole_minimum = {interface.step(), -everywhere, interface.top(cube.high[0])};
-    bricks.hole_maximum = {everywhere, everywhere, everywhere};
+    flat.hole_minimum = {interface.step(), -everywhere, interface.top(cube.high[0])};
+    flat.hole_maximum = {everywhere, everywhere, everywhere};
   }
-  fe::make_pit(bricks, mesh);
-  if (is_joined && parameters.interface_shape != InterfaceShape::flat)
-    dealii::GridTools::transform(
-        [&](const dealii::Point<3> &x)
-        { return dealii::Point<3>(x[0], x[1], cube.low[2] + interface.stretch(x[0]) * (x[2] - cube.low[2])); },
-        mesh);
+  fe::make_pit(flat, mesh);
+  dealii::GridTools::transform(
+      [&](const dealii::Point<3> &x)
+      { return dealii::Point<3>(x[0], x[1], cube.low[2] + interface.stretch(x[0]) * (x[2] - cube.low[2])); },
+      mesh);
+}
+
+void make_mesh(const ElementLayers &layers, const dem::Box &cell, const Interlayer &interlayer,
+               dealii::Triangulation<3> &mesh)
+{
+  fe::make_pit(bricks(layers, cell, interlayer.bottom(), layers.continuum), mesh);
 }
 
 } // namespace
@@ -63,7 +77,11 @@ std::unique_ptr<fe::ExplicitBody> make_continuum(const TriaxialParameters &param
   if (!parameters.has_continuum())
     return nullptr;
   dealii::Triangulation<3> mesh;
-  make_mesh(parameters, start.box, mesh);
+  if (parameters.kind == ModelKind::continuum)
+    fe::make_pit(bricks(parameters.layers, start.box, start.box.low[2], parameters.layers.high()), mesh);
+  else
+    std::visit([&](const auto &layout) { make_mesh(parameters.layers, start.box, layout, mesh); },
+               parameters.layout(start.box));
   fe::ExplicitBodyParameters body;
   body.material = parameters.continuum.material();
   body.kind.hourglass = parameters.bending_elements ? fe::Hourglass::bending : fe::Hourglass::at_points;

@@ -17,14 +17,6 @@ namespace
 
 constexpr double cost_of_coupling = 4; // over that of a grain in the overlap
 
-GradingParameters grading_of(const TriaxialParameters &p)
-{
-  GradingParameters sizes;
-  sizes.kind = SizeKind::gaussian;
-  sizes.gaussian = p.distribution;
-  return sizes;
-}
-
 /// Until the walls have closed and the grains rest.
 StageForecast packing(const TriaxialParameters &p, const double seconds_per_step)
 {
@@ -48,7 +40,7 @@ Forecast TriaxialParameters::forecast() const
   double share = 1; // of the grains that are loaded
   if (has_continuum())
   {
-    const auto body = make_continuum(*this, {.box = {Vec3::Zero(), Vec3::Constant(edge)}});
+    const auto body = make_continuum(*this, {.box = {Vec3::Zero(), edges()}});
     add_elements(f, *body);
     loading.stable_step = fe::stable_step(*body).time_step;
     loading.seconds_per_step = seconds_of_step(*body) / cycle();
@@ -56,8 +48,7 @@ Forecast TriaxialParameters::forecast() const
   }
   if (has_grains())
   {
-    const GradingParameters sizes = grading_of(*this);
-    GrainTrial trial(sizes, expected_solid_fraction * std::pow(edge, 3), seed);
+    GrainTrial trial(grading(), expected_solid_fraction * edges().prod(), seed);
     const double seconds = trial.seconds_of_step(loading_simulation());
     add_grains(f, trial);
     f.stages.push_back(packing(*this, cost_of_packing * seconds));
@@ -67,8 +58,9 @@ Forecast TriaxialParameters::forecast() const
     double overlap = 0;
     if (kind == ModelKind::two_scale)
     {
-      share = 1. - (layers.continuum - layers.overlap) / static_cast<double>(layers.per_edge);
-      overlap = layers.overlap / static_cast<double>(layers.per_edge);
+      const unsigned int n_overlaps = is_periodic() ? 2 : 1;
+      share = 1. - (layers.continuum - n_overlaps * layers.overlap) / static_cast<double>(layers.high());
+      overlap = n_overlaps * layers.overlap / static_cast<double>(layers.high());
       f.unknown.emplace_back("grains that the continuum leaves, " + std::to_string(std::llround(share * f.n_grains)) +
                              " or so");
     }

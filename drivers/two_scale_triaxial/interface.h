@@ -17,12 +17,15 @@ enum class InterfaceShape
   curved    ///< a wave of the length of the cube, up and down by a fifth of the flat height
 };
 
-/// Layers of elements in a cube, from the bottom.
+/// Layers of elements in a specimen, from the bottom; between grains above and below, from the continuum's lower face.
 struct ElementLayers
 {
-  unsigned int per_edge = 5;  ///< of the cube
-  unsigned int continuum = 3; ///< that are there
-  unsigned int overlap = 1;   ///< of these, shared with the grains
+  unsigned int per_edge = 5;   ///< across
+  unsigned int continuum = 3;  ///< that are there
+  unsigned int overlap = 1;    ///< of these, shared with the grains; as many at either face
+  unsigned int per_height = 0; ///< along z; 0: as many as across
+
+  unsigned int high() const { return per_height > 0 ? per_height : per_edge; }
 
   /// Throws ConfigError where the grains or the continuum have no layer to themselves under a face of this shape.
   void validate(InterfaceShape shape) const;
@@ -41,6 +44,9 @@ public:
 
   /// Behind this place [m] the continuum has a layer less; behind the cube for none.
   double step() const { return step_; }
+
+  bool has_grain(const Vec3 &centre) const { return centre[2] >= bottom(centre[0]); }
+  bool is_of_grains_alone(const Vec3 &centre) const { return centre[2] > top(centre[0]); }
 
   /// Height over the bottom of the cube, over that under a flat face; 1 where a step is.
   double stretch(double x) const;

@@ -25,7 +25,7 @@ public:
     require_stable_continuum(p);
     if (p.has_grains())
       packing.emplace(begin_packing(p));
-    start.box = {Vec3::Zero(), Vec3::Constant(p.edge)};
+    start.box = {Vec3::Zero(), p.edges()};
     if (!p.has_grains())
       specimen = std::make_unique<Specimen>(p, nullptr, start);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dem/loading/cell_loading.h"
 #include "dem/loading/compression.h"
 #include "dem/simulation/simulation.h"
 #include "drivers/common/run/run.h"
@@ -12,11 +13,16 @@
 namespace bergamo::driver
 {
 
-/// The first stage: grains drawn, placed at random in a box that is wide enough, and compressed between its walls.
+/// The first stage: grains drawn, placed at random in a box that is wide enough, and compressed between its walls; or
+/// packed in a periodic cell and compressed by it.
 struct PackingStage
 {
   std::unique_ptr<dem::Simulation> grains;
-  dem::Compression compression;
+  dem::Compression compression;         ///< between walls
+  std::optional<dem::CellLoading> cell; ///< of a periodic one
+
+  void step(); ///< one of the simulation, walls or cell included
+  bool is_finished() const { return cell ? cell->is_finished() : compression.is_finished(); }
 };
 
 /// Draws and places the grains. @throws ConfigError where they do not fit
@@ -31,7 +37,7 @@ Stage stage_of(PackingStage &packing, double aim);
 /// What the loading starts from.
 struct LoadingStart
 {
-  dem::Box box;                        ///< of the grains or, without any, the cube
+  dem::Box box;                        ///< of the grains or, without any, of the specimen
   std::vector<Vec3> reference_by_id{}; ///< the grains' places
   double solid_fraction = 0.;
   double coordination_number = 0.; ///< contacts a grain
@@ -41,9 +47,8 @@ struct LoadingStart
   std::vector<Vec3> stress_by_layer{};
 };
 
-/// Stops a packing's grains and walls where they are, for the loading. Where a continuum takes the lower part, the
-/// grains with their centre below the overlap are taken out, and the floor: those above are the grains of a cube of
-/// grains alone.
+/// Stops a packing's grains and walls where they are, for the loading. Grains with their centre where a
+/// continuum will be alone are taken out, and the floor: those that stay are grains of a specimen of grains alone.
 LoadingStart end_packing(dem::Simulation &grains, const TriaxialParameters &parameters);
 
 } // namespace bergamo::driver

@@ -26,6 +26,14 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Model", "edge", edge, "edge of the cube [m]", Range::positive().usual(1e-4, 10));
   file.add("Model", "elements per edge", layers.per_edge, "hexahedra along an edge of the cube",
            Range::between(2, 200));
+  file.add(
+      "Model", "sides", sides,
+      "what bounds the specimen: smooth walls, or a cell that repeats itself in all directions, with the continuum "
+      "half-way up and an overlap at either face of it",
+      {{"walls", Sides::walls}, {"periodic", Sides::periodic}});
+  file.add("Model", "elements per height", layers.per_height,
+           "layers of elements, or of grains as thick, along z of a periodic cell; 0: as many as along an edge",
+           Range::between(0, 1000));
   file.add("Model", "continuum layers", layers.continuum, "layers of elements, from the bottom",
            Range::between(1, 200));
   file.add("Model", "overlap layers", layers.overlap, "of these, the layers shared with the grains",
@@ -53,6 +61,9 @@ void TriaxialParameters::declare(ParameterFile &file)
            {.lowest = 0, .highest = 1, .lowest_included = false});
   file.add("Packing", "expected solid fraction", expected_solid_fraction, "after the compression; sets how many grains",
            {.lowest = 0, .highest = 1, .lowest_included = false});
+  file.add("Packing", "tightened solid fraction", tightened_solid_fraction,
+           "of grains in a periodic cell, before it is compressed",
+           {.lowest = 0, .highest = 0.7, .lowest_included = false});
   file.add("Packing", "friction", packing_friction, "between grains during the compression: less gives denser packings",
            Range::non_negative().usual(0, 2));
   declare_compression(file, compression);
@@ -83,9 +94,24 @@ void TriaxialParameters::validate() const
   compression.validate();
   program.validate();
   loading_steps();
+  if (is_periodic())
+  {
+    if (interface_shape != InterfaceShape::flat)
+      reject(
+          "Model/interface is not flat, but a periodic cell (Model/sides) has flat ones alone: choose flat, or walls");
+    if (coupling.renewal > 0. && kind == ModelKind::two_scale)
+      reject("Coupling/renewal is ", coupling.renewal,
+             ", but the overlaps of a periodic cell (Model/sides) stay as they are made: choose 0, or walls");
+  }
+  else if (layers.high() != layers.per_edge)
+    reject("Model/elements per height is ", layers.per_height, " beside ", layers.per_edge,
+           " per edge: between walls the specimen is a cube; choose 0, or Model/sides = periodic");
   if (kind == ModelKind::two_scale)
   {
-    layers.validate(interface_shape);
+    if (is_periodic())
+      require_interlayer(layers);
+    else
+      layers.validate(interface_shape);
     if (element_size() < 2. * distribution.mean_half_axes.mean())
       reject("the elements are smaller than a grain: edge over elements per edge is ", element_size(),
              " m; choose fewer Model/elements per edge or a larger Model/edge");
@@ -112,6 +138,21 @@ void TriaxialParameters::validate() const
     if (step > limit)
       reject(name, " is ", step, " s: it must stay below ", limit,
              " s, the stable step of two of the smallest grains in contact");
+}
+
+Layout TriaxialParameters::layout(const dem::Box &specimen) const
+{
+  if (is_periodic())
+    return Interlayer(layers, specimen);
+  return Interface(interface_shape, layers, specimen);
+}
+
+GradingParameters TriaxialParameters::grading() const
+{
+  GradingParameters sizes;
+  sizes.kind = SizeKind::gaussian;
+  sizes.gaussian = distribution;
+  return sizes;
 }
 
 std::int64_t TriaxialParameters::loading_steps() const

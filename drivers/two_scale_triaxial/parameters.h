@@ -7,9 +7,10 @@
 #include "dem/simulation/simulation.h"
 #include "drivers/common/continuum_parameters.h"
 #include "drivers/common/forecast/forecast.h"
+#include "drivers/common/grading_parameters.h"
 #include "drivers/common/output_parameters.h"
 #include "drivers/common/parameter_file.h"
-#include "drivers/two_scale_triaxial/interface.h"
+#include "drivers/two_scale_triaxial/layout.h"
 
 #include <cstdint>
 
@@ -23,6 +24,12 @@ enum class ModelKind
   continuum
 };
 
+enum class Sides
+{
+  walls,   ///< smooth and rigid, on all six sides
+  periodic ///< the specimen repeats itself in all directions
+};
+
 /// Everything that steers the two-scale triaxial test. SI units; angles in degrees.
 struct TriaxialParameters
 {
@@ -31,6 +38,7 @@ struct TriaxialParameters
   ModelKind kind = ModelKind::two_scale;
   double edge = 0.01; ///< of the cube [m]
   ElementLayers layers;
+  Sides sides = Sides::walls;
   InterfaceShape interface_shape = InterfaceShape::flat;
   coupling::WeightShape weight = coupling::WeightShape::linear;
   bool bending_elements = false; ///< see fe::Hourglass
@@ -39,8 +47,9 @@ struct TriaxialParameters
   dem::GrainDistribution distribution;
   dem::SimulationParameters simulation; ///< of the loading
 
-  double initial_solid_fraction = 0.2;   ///< of the random addition
-  double expected_solid_fraction = 0.67; ///< sets the number of grains
+  double initial_solid_fraction = 0.2;    ///< of the random addition
+  double expected_solid_fraction = 0.67;  ///< sets the number of grains
+  double tightened_solid_fraction = 0.55; ///< of grains in a periodic cell, before it is compressed
   double packing_friction = 0.15;
   double packing_time_step = 3e-7; ///< [s]
   double packing_overlap_tolerance = 5e-2;
@@ -83,8 +92,11 @@ struct TriaxialParameters
   bool needs_mpi() const { return kind == ModelKind::two_scale; } ///< to find the equilibrium it starts from
   bool has_grains() const { return kind != ModelKind::continuum; }
   bool has_continuum() const { return kind != ModelKind::grains; }
-  double element_size() const { return edge / layers.per_edge; } ///< nominal [m]
-  Interface interface(const dem::Box &cube) const { return {interface_shape, layers, cube}; }
+  bool is_periodic() const { return sides == Sides::periodic; }
+  double element_size() const { return edge / layers.per_edge; }              ///< nominal [m]
+  Vec3 edges() const { return {edge, edge, element_size() * layers.high()}; } ///< nominal, of the specimen [m]
+  Layout layout(const dem::Box &specimen) const;
+  GradingParameters grading() const;
 };
 
 } // namespace bergamo::driver

@@ -66,7 +66,7 @@ def fit(program, common, alone, pool):
     def residual(scaled):
         # One element says what the whole cube does, as all of it is strained alike.
         settings = {**common, **settings_of(scaled), "Model/kind": "continuum", "Model/elements per edge": 2,
-                    "Loading/time step": 1e-6}
+                    "Model/elements per height": 0, "Loading/time step": 1e-6}
         with tempfile.TemporaryDirectory() as folder:
 
             def difference(path):

@@ -39,7 +39,7 @@ void require_stable_continuum(const TriaxialParameters &parameters)
   constexpr double densest = 0.74; // solid fraction; the cube shrinks until the grains bear the pressure
   const double shrinkage = parameters.has_grains() ? std::min(1., parameters.expected_solid_fraction / densest) : 1.;
   LoadingStart least;
-  least.box = {Vec3::Zero(), Vec3::Constant(parameters.edge * std::cbrt(shrinkage))};
+  least.box = {Vec3::Zero(), parameters.edges() * std::cbrt(shrinkage)};
   require_below(fe::stable_step(*make_continuum(parameters, least)).time_step, parameters,
                 parameters.has_grains() ? " if the grains pack as densely as they can" : "");
 }
@@ -49,20 +49,9 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
       edges(cube.edges()), step(p.simulation.time_step)
 {
   const bool is_joined = parameters.kind == ModelKind::two_scale;
-  if (fe::ExplicitBody *body = model.body())
-  {
-    for (unsigned int face = 0; face < (is_joined ? 5u : 6u); ++face)
-      faces[face].constraint = body->prescribe_velocity(face, face / 2);
-  }
+  boundary = parameters.is_periodic() ? in_periodic_cell(model, edges) : between_walls(model, is_joined);
   if (is_joined)
     join(start.reference_by_id);
-  if (model.grains())
-  {
-    std::size_t wall = 0; // joined, the grains' floor is gone and the wall above has moved up in the list
-    for (std::size_t face = 0; face < 6; ++face)
-      if (face != 4 || !is_joined)
-        faces[face].wall = wall++;
-  }
   if (!model.body())
     return;
   body_steps.emplace(*model.body());
@@ -72,10 +61,10 @@ Specimen::Specimen(const TriaxialParameters &p, std::unique_ptr<dem::Simulation>
 
 void Specimen::join(const std::vector<Vec3> &reference_by_id)
 {
-  const Interface interface = parameters.interface(cube);
+  const Layout layout = parameters.layout(cube);
   std::vector<double> weight;
   for (const auto &x : model.body()->node_position())
-    weight.push_back(interface.weight_at({x[0], x[1], x[2]}, parameters.weight));
+    weight.push_back(weight_at(layout, {x[0], x[1], x[2]}, parameters.weight));
   model.join(parameters.coupling, weight, reference_by_id);
 }
 
@@ -85,15 +74,7 @@ void Specimen::compute(const Vec3 &strain_now, const Vec3 &strain_next)
   model.compute_forces();
   if (body_steps)
     body_steps->require_stable(step * parameters.cycle());
-  for (int d = 0; d < 3; ++d)
-  {
-    const double velocity = edges[d] * (strain_next[d] - strain_now[d]) / step;
-    const Face &face = faces[2 * d + 1];
-    if (face.wall)
-      model.grains()->walls[*face.wall].velocity = velocity * Vec3::Unit(d);
-    if (face.constraint)
-      model.body()->set_velocity(*face.constraint, velocity);
-  }
+  boundary->move(edges.cwiseProduct(strain_next - strain_now) / step);
   model.kick();
 }
 
@@ -105,47 +86,18 @@ SpecimenSample Specimen::measure(const double time) const
   if (model.body())
     fe::require_bounded(model.body()->energy(), "the continuum at time " + std::to_string(time) + " s",
                         "a smaller Loading/time step");
-  SpecimenSample sample{.time = time,
-                        .stage = parameters.program.stage(time),
-                        .strain = strain,
-                        .stress = stress(),
-                        .energy = coupling::energy_of(model)};
+  SpecimenSample sample{
+      .time = time, .stage = parameters.program.stage(time), .strain = strain, .energy = coupling::energy_of(model)};
   sample.coupling_difference = model.penalty_state().largest_difference;
-  sample.profile = coupling::stress_profile(model, {cube.low, cube.low + edges.cwiseProduct(Vec3::Ones() + strain)},
-                                            parameters.layers.per_edge);
+  const Vec3 present_edges = edges.cwiseProduct(Vec3::Ones() + strain);
+  sample.profile = coupling::stress_profile(model, {cube.low, cube.low + present_edges}, parameters.layers.high());
+  sample.stress = boundary->stress(present_edges, sample);
   if (!grains)
     return sample;
   sample.coordination_number = dem::mean_coordination(grains->contacts, grains->particles.size());
   sample.largest_overlap = dem::largest_relative_overlap(grains->contacts, grains->particles);
   dem::check_overlap(sample.largest_overlap, time, "a smaller Loading/time step or smaller strains");
   return sample;
-}
-
-Vec3 Specimen::stress() const
-{
-  const Vec3 current_edges = edges.cwiseProduct(Vec3::Ones() + strain);
-  Vec3 stress = Vec3::Zero();
-  for (int d = 0; d < 3; ++d)
-  {
-    const double area = current_edges.prod() / current_edges[d];
-    int n_faces = 0;
-    for (int side = 0; side < 2; ++side)
-    {
-      const Face &face = faces[2 * d + side];
-      if (!face.wall && !face.constraint)
-        continue;
-      double pull = 0.; // force of the surroundings on the specimen, outwards
-      const double outwards = side == 0 ? -1. : 1.;
-      if (face.wall)
-        pull -= outwards * model.grains()->walls[*face.wall].force[d];
-      if (face.constraint)
-        pull += outwards * model.continuum()->reaction(*face.constraint);
-      stress[d] += pull / area;
-      ++n_faces;
-    }
-    stress[d] /= n_faces;
-  }
-  return stress;
 }
 
 void Specimen::look_at_rotation(Progress &progress)
@@ -165,7 +117,7 @@ void Specimen::write_tables(const std::filesystem::path &folder, const std::vect
 {
   write_profile(folder / "stress_profile.csv", profile);
   if (model.grains())
-    write_contact_forces(folder / "contact_forces.csv", *model.grains(), parameters.interface(cube));
+    write_contact_forces(folder / "contact_forces.csv", *model.grains(), parameters.layout(cube));
 }
 
 void visit_loading(StateVisitor &visit, std::unique_ptr<Specimen> &specimen, LoadingStart &start,

@@ -5,10 +5,10 @@
 #include "drivers/common/run/rotation_watch.h"
 #include "drivers/common/summary.h"
 #include "drivers/two_scale_triaxial/packing_stage.h"
+#include "drivers/two_scale_triaxial/specimen_boundary.h"
 #include "drivers/two_scale_triaxial/specimen_sample.h"
 #include "fe_dealii/step_control.h"
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,12 +20,13 @@ namespace bergamo::driver
 /// may end in: told before the grains are packed.
 void require_stable_continuum(const TriaxialParameters &parameters);
 
-/// The cube under test: grains above, continuum below, joined in the overlap; or one of them alone. Its outer faces
-/// move with prescribed strains: lower faces stand still, upper ones move.
+/// The specimen under test: grains above, continuum below, joined in the overlap, between walls; or a layer of
+/// continuum between grains, in a periodic cell; or one of them alone. Its edges follow prescribed strains.
 class Specimen
 {
 public:
-  /// @param grains the packing between six walls, or none for a continuum alone; @param start before any loading
+  /// @param grains the packing between six walls or in a periodic cell, or none for a continuum alone; @param start
+  /// before any loading
   /// @throws ConfigError where the time step is above the stable one of the continuum
   Specimen(const TriaxialParameters &parameters, std::unique_ptr<dem::Simulation> grains, const LoadingStart &start);
 
@@ -36,7 +37,7 @@ public:
   void compute(const Vec3 &strain_now, const Vec3 &strain_next);
   void move() { model.drift(); }
 
-  /// Stresses are means from the forces on walls and boundary (Wellmann, fig. 6.5a). @param time [s]
+  /// @param time [s]
   /// @throws RunError where the run has diverged, naming the time
   SpecimenSample measure(double time) const;
 
@@ -56,20 +57,13 @@ public:
   RotationWatch rotation;                    ///< of the continuum's elements
 
 private:
-  struct Face
-  {
-    std::optional<std::size_t> wall;                        ///< of the grains
-    std::optional<fe::ExplicitBody::Constraint> constraint; ///< of the continuum
-  };
-
   void join(const std::vector<Vec3> &reference_by_id);
-  Vec3 stress() const;
 
   const TriaxialParameters &parameters;
   dem::Box cube;
   Vec3 edges, strain = Vec3::Zero();
   double step;
-  std::array<Face, 6> faces; ///< x-, x+, y-, y+, z-, z+
+  std::unique_ptr<SpecimenBoundary> boundary;
 };
 
 /// The state of a loading, by name; in reading the specimen is made.

@@ -217,6 +217,49 @@ class Results(Case):
         self.assertFalse((out / "summary.json").exists())
 
 
+class Periodic(Case):
+    CELL = [x for o in ("Model/sides=periodic", "Model/elements per height=6", "Model/continuum layers=4",
+                        "Model/overlap layers=1", "Loading/time step=9e-8", "Continuum/Young's modulus=4e8",
+                        "Continuum/friction angle=40") for x in ("--set", o)]
+
+    def test_models(self):
+        """Grains alone, a layer of continuum between grains, and continuum alone, without walls."""
+        for kind in ("grains", "two-scale", "continuum"):
+            with self.subTest(kind):
+                out = self.tmp / kind
+                result = self.run_driver(out, "--set", f"Model/kind={kind}", *self.CELL)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                rows, summary = history(out), json.loads((out / "summary.json").read_text())
+                self.assertLess(summary["energy_residual"], 1e-6)
+                self.assertGreater(rows[-1]["energy_wall_work_J"], 0)
+                width, _, height = summary["cube_edges_m"]
+                self.assertAlmostEqual(height / width, 2, delta=0.1)
+                for direction in "123":
+                    self.assertLess(rows[-1][f"stress_{direction}_Pa"], -2 * PRESSURE)
+                # at rest the upright stress is one, whatever bears it; what is left are waves of a quick loading
+                self.assertLess(rows[-1]["stress_3_unevenness"], 0.05)
+
+    def test_restart(self):
+        """kill -9 in the loading, then --restart on another number of threads: the same bits."""
+        whole, killed = self.tmp / "whole", self.tmp / "killed"
+        self.assertEqual(self.run_driver(whole, "--threads", "1", *self.CELL).returncode, 0)
+        stop_when(lambda: n_rows(killed / "history.csv") > 25,
+                  self.command(killed, *SNAPSHOTS_BY_STEPS, "--threads", "1", *self.CELL))
+        self.assertFalse((killed / "summary.json").exists())
+        result = self.run_driver(killed, *SNAPSHOTS_BY_STEPS, "--restart", "--threads", "2", *self.CELL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in ("history.csv", "grains_0001.vtu", "stress_profile.csv"):
+            self.assertEqual((whole / name).read_bytes(), (killed / name).read_bytes(), name)
+
+    def test_bad_input(self):
+        refused = lambda *options: self.run_driver(self.tmp / "run", *self.CELL,
+                                                   *[x for o in options for x in ("--set", o)])
+        self.assert_refused(refused("Model/continuum layers=5"), "Model/continuum layers is 5", "both even or both odd")
+        self.assert_refused(refused("Model/interface=stepped"), "Model/interface", "choose flat, or walls")
+        self.assert_refused(refused("Coupling/renewal=0.1"), "Coupling/renewal is 0.1", "choose 0, or walls")
+        self.assert_refused(refused("Model/sides=walls"), "Model/elements per height is 6", "Model/sides = periodic")
+
+
 class Restart(Case):
     def test_killed_run_goes_on_with_the_same_bits(self):
         """kill -9 in the loading, then --restart on another number of threads: the files are those of a run in one go."""
