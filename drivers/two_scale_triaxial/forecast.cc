@@ -17,11 +17,13 @@ namespace
 
 constexpr double cost_of_coupling = 4; // over that of a grain in the overlap
 
-/// Until the walls have closed and the grains rest.
+/// Until the walls, or the cell, have closed and the grains rest.
 StageForecast packing(const TriaxialParameters &p, const double seconds_per_step)
 {
   const double density = p.simulation.grain().density, pressure = p.compression.pressure,
-               widening = std::max(1., std::cbrt(p.expected_solid_fraction / p.initial_solid_fraction)),
+               widening =
+                   std::max(1., std::cbrt(p.expected_solid_fraction /
+                                          (p.is_periodic() ? p.tightened_solid_fraction : p.initial_solid_fraction))),
                speed =
                    std::min(0.5 * p.compression.largest_rate * widening * p.edge, 0.5 * std::sqrt(pressure / density)),
                time = 0.5 * (widening - 1.) * p.edge / speed + usual_rest_time(p.edge, pressure, density);
