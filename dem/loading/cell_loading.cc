@@ -35,6 +35,7 @@ CellLoading::CellLoading(const LoadingStage &stage, const MeanGrain &grain, cons
 
 void CellLoading::begin(Simulation &simulation)
 {
+  simulation.particles.cell.require_closed("the loading of a cell");
   SimulationParameters parameters = simulation.parameters();
   parameters.between_grains().friction = s.friction;
   parameters.time_step = s.time_step;

@@ -44,6 +44,7 @@ CellControl::CellControl(const CellControlParameters &parameters) : parameters(p
 void CellControl::act(PeriodicCell &cell, const std::array<AxisControl, 3> &controls, const Vec3 &mean_stress,
                       const double time_step)
 {
+  cell.require_closed("the control of a cell's stresses and rates");
   const double inertia = parameters.wall_density * parameters.wall_thickness;
   const double applied_step = parameters.modulus * parameters.largest_rate * time_step;
   for (int d = 0; d < 3; ++d)

@@ -13,7 +13,7 @@ void NeighbourWatch::take_all(const Particles &particles, const std::vector<Plan
 {
   position_when_built = particles.position;
   orientation_when_built = particles.has_clumps() ? particles.orientation : std::vector<Quaternion>();
-  edges_when_built = particles.cell.edges;
+  period_when_built = particles.cell.period;
   look_at_motion = particles.largest_motion + 0.5 * verlet_distance;
   wall_motion_when_built.clear();
   for (const PlaneWall &wall : walls)
@@ -114,7 +114,7 @@ bool NeighbourWatch::must_renew(const Particles &particles, const std::vector<Pl
     return true;
   double limit = 0.5 * verlet_distance;
   if (particles.cell.is_periodic())
-    limit -= 0.5 * (particles.cell.edges - edges_when_built).norm();
+    limit -= 0.5 * (particles.cell.period - period_when_built).norm();
   if (particles.largest_motion < look_at_motion)
     return false;
   const double largest = largest_displacement(particles);

@@ -34,7 +34,7 @@ public:
   bool must_renew(const Particles &particles, const std::vector<PlaneWall> &walls, std::span<const Surface> surfaces);
 
   /// Whether what must be renewed are the whole lists: where walls or surfaces have moved too far, and in periodic
-  /// cells, all of whose places change with the edges.
+  /// cells, all of whose places change with the edges and whose grains are put back.
   bool must_renew_all(const Particles &particles, const std::vector<PlaneWall> &walls,
                       std::span<const Surface> surfaces) const;
 
@@ -56,7 +56,7 @@ public:
     visit("turn_when_built", self.orientation_when_built);
     visit("wall_motion_when_built", self.wall_motion_when_built);
     visit("surface_motion_when_built", self.surface_motion_when_built);
-    visit("edges_when_built", self.edges_when_built);
+    visit("edges_when_built", self.period_when_built);
   }
 
 private:
@@ -68,7 +68,7 @@ private:
   std::vector<Vec3> position_when_built;
   std::vector<Quaternion> orientation_when_built; // of clumps, whose parts move when they turn; else empty
   std::vector<double> wall_motion_when_built, surface_motion_when_built;
-  Vec3 edges_when_built = Vec3::Zero(); // of the periodic cell [m]
+  Vec3 period_when_built = Vec3::Zero(); // of the periodic cell [m]
 };
 
 /// Edges that a periodic cell has at least [m]: two ranges of contacts, the largest distances of the centres of two

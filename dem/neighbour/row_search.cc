@@ -26,8 +26,7 @@ std::int32_t first_from(const std::vector<double> &values, const std::int32_t be
 
 RowSearch::RowSearch(const SphereRows &rows, const double verlet_distance, const PeriodicCell &cell,
                      const std::span<const std::uint8_t> sought)
-    : rows(rows), verlet_distance(verlet_distance), cell(cell), sought(sought),
-      rounding(cell.is_periodic() ? 1e-12 * cell.edges.maxCoeff() : 0.)
+    : rows(rows), verlet_distance(verlet_distance), cell(cell), sought(sought), rounding(1e-12 * cell.period.maxCoeff())
 {
 }
 
@@ -148,7 +147,7 @@ void RowSearch::gather_larger(const std::int32_t begin, const std::int32_t end)
   const auto is_in_reach = [&](const double place, const int d, const double reach)
   {
     double line = place - centre[d];
-    if (cell.is_periodic())
+    if (cell.is_periodic(d))
       line -= cell.edges[d] * std::round(line / cell.edges[d]);
     return std::abs(line) <= half[d] * (1. + 1e-12) + reach;
   };
@@ -178,7 +177,7 @@ void RowSearch::gather_larger(const std::int32_t begin, const std::int32_t end)
     else
     {
       gather(row, from, to);
-      if (from < 0. && cell.is_periodic())
+      if (from < 0. && cell.is_periodic(0))
         gather(row, from + length, length);
       if (to > length)
         gather(row, 0., to - length);
@@ -253,6 +252,8 @@ void RowSearch::look_around(const NearRow &row, const std::int32_t of)
   const double place = all.place[of], reach = reach_to(*size), low = place - reach, high = place + reach;
   const std::int32_t own = all.sphere[of];
   look_into<true>({&all, row.next, row.end, high, own}, of);
+  if (!cell.is_periodic(0))
+    return;
   // What is left beyond each face of the cell: no sphere twice where both meet on the other side.
   const double length = cell.edges[0];
   if (high > length)

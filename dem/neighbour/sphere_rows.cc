@@ -48,8 +48,9 @@ SphereRows::SphereRows(const BoundingSpheres &given, const double verlet_distanc
     size.range = range;
     size.width.setConstant(std::max(range, std::numeric_limits<double>::min()));
     size.n_rows = (cell.edges.array() / size.width.array()).floor().max(1.);
-    if (cell.is_periodic())
-      size.width = cell.edges.cwiseQuotient(size.n_rows);
+    for (int d = 0; d < 3; ++d)
+      if (cell.is_periodic(d))
+        size.width[d] = cell.edges[d] / size.n_rows[d];
     classes.push_back(size);
   }
 
@@ -98,7 +99,7 @@ SphereRows::SphereRows(const BoundingSpheres &given, const double verlet_distanc
 
 Vec3 place_in(const PeriodicCell &cell, const Vec3 &x)
 {
-  return cell.is_periodic() ? Vec3(x - (x.array() / cell.edges.array()).floor().matrix().cwiseProduct(cell.edges)) : x;
+  return cell.is_periodic() ? Vec3(x - (x.array() / cell.edges.array()).floor().matrix().cwiseProduct(cell.period)) : x;
 }
 
 RowNumbers::RowNumbers(const SphereClass &size, const int direction, const Interval &interval)

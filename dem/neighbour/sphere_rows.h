@@ -16,7 +16,7 @@ struct SphereClass
 {
   double range = 0.;                             ///< of its largest sphere [m]
   Vec3 width = Vec3::Zero();                     ///< of its rows in y and z [m], at least the range; x is not used
-  Vec3 n_rows = Vec3::Zero();                    ///< in a periodic cell; infinite elsewhere
+  Vec3 n_rows = Vec3::Zero();                    ///< in the directions of a periodic cell; infinite elsewhere
   std::int32_t begin_layers = 0, end_layers = 0; ///< in SphereRows::layers
 };
 
@@ -38,7 +38,7 @@ struct SphereRow
 struct SphereArrays
 {
   std::vector<std::int32_t> sphere;    ///< index
-  std::vector<double> place;           ///< x, in the cell if it is periodic [m]
+  std::vector<double> place;           ///< x, in the cell if it is periodic along x [m]
   std::vector<double> x, y, z, radius; ///< as given [m]
 
   /// As many numbers as fill a pack stand behind the last sphere.
@@ -70,7 +70,7 @@ struct SphereRows
   SphereArrays spheres; ///< in the order of rows
 };
 
-/// The image of a place that lies in the cell; the place itself where nothing repeats itself [m].
+/// The image of a place that lies in the cell; the place itself in directions in which nothing repeats itself [m].
 Vec3 place_in(const PeriodicCell &cell, const Vec3 &x);
 
 /// Along one direction [m].

@@ -56,7 +56,7 @@ public:
       for (int k = c[d] - 1; k <= c[d] + 1; ++k)
       {
         const bool is_outside = k < 0 || k >= n[d];
-        if (is_outside && (!space->is_periodic() || n[d] < 3))
+        if (is_outside && (!space->is_periodic(d) || n[d] < 3))
           continue;
         at[d][count[d]++] = (k + n[d]) % n[d];
       }

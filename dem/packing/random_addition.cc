@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -70,9 +71,12 @@ private:
   /// A grain is at least as wide as a sphere inside it in every direction.
   void require_room() const
   {
-    const double edge = space.bounds().edges().minCoeff();
+    double edge = std::numeric_limits<double>::infinity();
+    for (int d = 0; d < 3; ++d)
+      if (!space.is_periodic(d)) // else require_range() has asked for more
+        edge = std::min(edge, space.bounds().edges()[d]);
     const double widest = 2. * grains.largest_inscribed_radius();
-    if (widest < edge || space.is_periodic())
+    if (widest < edge)
       return;
     std::ostringstream message;
     message << "shortest edge of the packing's space is " << edge << " m: it must be larger than the narrowest side of "

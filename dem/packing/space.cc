@@ -106,11 +106,17 @@ PackingSpace::PackingSpace(const Box &box) : box(box), planes(planes_of(box)), s
   check_edges(box);
 }
 
-PackingSpace PackingSpace::periodic(const Box &box)
+PackingSpace PackingSpace::periodic(const Box &box, const std::array<bool, 3> &repeats)
 {
   PackingSpace space(box);
-  space.planes.clear();
-  space.periodic_box = true;
+  std::erase_if(space.planes,
+                [&](const HalfSpace &plane)
+                {
+                  int d = 0;
+                  plane.normal.cwiseAbs().maxCoeff(&d);
+                  return repeats[d];
+                });
+  space.repeats = repeats;
   return space;
 }
 
@@ -169,11 +175,11 @@ bool PackingSpace::contains(const BodyPose &grain, const double bounding_radius)
 
 Vec3 PackingSpace::wrap(const Vec3 &position) const
 {
-  if (!periodic_box)
-    return position;
   Vec3 x = position;
   for (int d = 0; d < 3; ++d)
   {
+    if (!repeats[d])
+      continue;
     const double edge = box.high[d] - box.low[d];
     x[d] -= edge * std::floor((x[d] - box.low[d]) / edge);
     if (x[d] >= box.high[d]) // rounding, just below the low face
@@ -184,11 +190,11 @@ Vec3 PackingSpace::wrap(const Vec3 &position) const
 
 Vec3 PackingSpace::nearest_image(const Vec3 &difference) const
 {
-  if (!periodic_box)
-    return difference;
   Vec3 x = difference;
   for (int d = 0; d < 3; ++d)
   {
+    if (!repeats[d])
+      continue;
     const double edge = box.high[d] - box.low[d];
     x[d] -= edge * std::round(x[d] / edge);
   }
@@ -197,8 +203,8 @@ Vec3 PackingSpace::nearest_image(const Vec3 &difference) const
 
 void PackingSpace::require_range(const double range) const
 {
-  for (int d = 0; periodic_box && d < 3; ++d)
-    if (!(box.edges()[d] > 2. * range))
+  for (int d = 0; d < 3; ++d)
+    if (repeats[d] && !(box.edges()[d] > 2. * range))
     {
       std::ostringstream message;
       message << "edge of the periodic box along " << axis_name[d] << " is " << box.edges()[d]

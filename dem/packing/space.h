@@ -3,6 +3,7 @@
 #include "dem/core/types.h"
 #include "dem/geometry/contact_geometry.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,15 +40,17 @@ struct RadialReach
 /// are halved until their intersection says no more than the largest support height found.
 RadialReach radial_reach(const BodyPose &grain, const Vec3 &centre);
 
-/// Where grains may lie: a convex body between plane walls, at most one cylindrical wall besides, or a periodic box.
+/// Where grains may lie: a convex body between plane walls, at most one cylindrical wall besides, or a box that repeats
+/// in some directions and has walls across the others.
 class PackingSpace
 {
 public:
   /// A box between six walls. Throws ConfigError for an edge that is not positive.
   PackingSpace(const Box &box);
 
-  /// A box that repeats in all directions. Centres lie in the box, grains may reach out of it.
-  static PackingSpace periodic(const Box &box);
+  /// A box that repeats in the given directions, with walls across the others. Centres lie in the box, grains may reach
+  /// out of it where it repeats.
+  static PackingSpace periodic(const Box &box, const std::array<bool, 3> &repeats = {true, true, true});
 
   /// Upright cylinder about z. @param base centre of its bottom [m]; @param radius, height [m]
   static PackingSpace cylinder(const Vec3 &base, double radius, double height);
@@ -58,7 +61,8 @@ public:
 
   const Box &bounds() const { return box; } ///< of the space; of a periodic one, the box itself
   double volume() const { return solid; }   ///< [m^3]
-  bool is_periodic() const { return periodic_box; }
+  bool is_periodic(const int direction) const { return repeats[direction]; }
+  bool is_periodic() const { return repeats[0] || repeats[1] || repeats[2]; } ///< in any direction
   std::span<const HalfSpace> walls() const { return planes; }
   std::optional<RadialReach> curved_wall(const BodyPose &grain) const; ///< none without a cylindrical wall
   double curved_wall_radius() const { return radius; }                 ///< [m]
@@ -72,8 +76,8 @@ public:
   /// From one centre to the nearest image of another one: the shortest for boxes of two ranges and more.
   Vec3 nearest_image(const Vec3 &difference) const;
 
-  /// Throws ConfigError naming the edge, the range and the remedy for a periodic box with an edge of at most two
-  /// ranges, in which a grain would meet two images of another one.
+  /// Throws ConfigError naming the edge, the range and the remedy for a periodic edge of at most two ranges, across
+  /// which a grain would meet two images of another one.
   void require_range(double range) const;
 
 private:
@@ -84,7 +88,7 @@ private:
   Vec3 axis = Vec3::Zero();
   double radius = 0.; // none
   double solid = 0.;
-  bool periodic_box = false;
+  std::array<bool, 3> repeats{};
 };
 
 } // namespace bergamo::dem

@@ -59,7 +59,7 @@ double return_to_cell(Particles &particles)
       continue;
     Vec3 &velocity = particles.velocity[i];
     const double old_square = velocity.squaredNorm();
-    particles.position[i] -= edges_over.cwiseProduct(cell.edges);
+    particles.position[i] -= edges_over.cwiseProduct(cell.period);
     velocity -= edges_over.cwiseProduct(cell.rate);
     particles.drift_velocity[i] -= edges_over.cwiseProduct(cell.drift_rate); // as seen against its new images
     change += 0.5 * particles.weight[i] * particles.mass[i] * (velocity.squaredNorm() - old_square);

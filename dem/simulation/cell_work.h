@@ -38,7 +38,8 @@ struct CellWork
 
 /// Puts grains that have left the cell back into it, with the velocities of their images; those of a weight below 1
 /// stay, since they are tied to places of a continuum. Neighbours are found wherever grains are, up to a quarter of an
-/// edge beyond the cell.
+/// edge beyond the cell. What a contact with a plane remembers is counted from the grain's centre and goes along: the
+/// plane is the same there.
 /// @return change of the kinetic energy [J]
 double return_to_cell(Particles &particles);
 

@@ -1,5 +1,6 @@
 #include "dem/core/error.h"
 #include "dem/motion/rotation.h"
+#include "dem/simulation/cell_rules.h"
 #include "dem/simulation/simulation.h"
 
 #include <string>
@@ -25,9 +26,10 @@ void Simulation::remove_wall(const std::int32_t wall)
 void Simulation::add_wall(const PlaneWall &wall)
 {
   wall.validate(p.materials.size());
-  if (particles.cell.is_periodic())
-    throw ConfigError("a periodic cell has no walls: add none");
-  walls.push_back(wall);
+  std::vector<PlaneWall> all = walls;
+  all.push_back(wall);
+  require_walls_fit(particles.cell, all);
+  walls = std::move(all);
   walls.back().drift_velocity.setZero();
   renew_neighbours();
 }
@@ -35,8 +37,7 @@ void Simulation::add_wall(const PlaneWall &wall)
 void Simulation::add_surface(Surface surface)
 {
   surface.validate(p.materials.size());
-  if (particles.cell.is_periodic())
-    throw ConfigError("a periodic cell has no surfaces: add none");
+  require_no_cell_of_surfaces(particles.cell);
   surfaces.push_back(std::move(surface));
   renew_neighbours();
 }

@@ -7,6 +7,7 @@
 #include "dem/motion/stable_step.h"
 #include "dem/neighbour/spatial_order.h"
 #include "dem/neighbour/verlet_distance.h"
+#include "dem/simulation/cell_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +59,7 @@ void Simulation::change(const SimulationParameters &parameters)
                 now[m].density == old[m].density,
             "Young's modulus, Poisson's ratio or density of a material of a simulation that goes on: modulus",
             now[m].young_modulus, "as at its start: begin a new simulation for another material");
-  if (particles.cell.is_periodic())
-    require(parameters.gravity == Vec3::Zero(), "gravity in a periodic cell", parameters.gravity.norm(),
-            "zero [m/s^2]");
+  require_gravity_fits(particles.cell, parameters.gravity);
   accounts.start_potential +=
       gravity_potential(particles, parameters.gravity) - gravity_potential(particles, p.gravity);
   const bool has_other_range = parameters.verlet_distance != p.verlet_distance;
@@ -80,17 +79,14 @@ void Simulation::set_range()
 
 void Simulation::check_cell() const
 {
-  const auto refuse = [](const std::string &what) { throw ConfigError("a periodic cell " + what); };
-  if (!walls.empty())
-    refuse("has no walls, but " + std::to_string(walls.size()) + " were given: leave them out");
-  if (p.gravity != Vec3::Zero())
-    refuse("would fall for ever: set gravity to zero");
+  require_walls_fit(particles.cell, walls);
+  require_gravity_fits(particles.cell, p.gravity);
   const double least = least_cell_edge(particles, watch.verlet_distance);
-  if (particles.cell.edges.minCoeff() < least)
-    refuse("of edge " + std::to_string(particles.cell.edges.minCoeff()) +
-           " m is too small: a grain would touch another "
-           "one twice; it needs at least two ranges of contacts, " +
-           std::to_string(least) + " m: make it larger or the grains smaller");
+  if (const double edge = particles.cell.edges.minCoeff(); edge < least)
+    throw ConfigError("a periodic cell of edge " + std::to_string(edge) +
+                      " m is too small: a grain would touch another "
+                      "one twice; it needs at least two ranges of contacts, " +
+                      std::to_string(least) + " m: make it larger or the grains smaller");
 }
 
 void Simulation::renew_neighbours()
@@ -99,10 +95,10 @@ void Simulation::renew_neighbours()
   if (particles.cell.is_periodic())
   {
     const double least = least_cell_edge(particles, watch.verlet_distance);
-    if (particles.cell.edges.minCoeff() < least)
-      throw RunError("the periodic cell has shrunk to an edge of " + std::to_string(particles.cell.edges.minCoeff()) +
-                     " m at time " + std::to_string(time) + " s, less than two ranges of contacts, " +
-                     std::to_string(least) + " m: begin with a larger cell or load it less");
+    if (const double edge = particles.cell.edges.minCoeff(); edge < least)
+      throw RunError("the periodic cell has shrunk to an edge of " + std::to_string(edge) + " m at time " +
+                     std::to_string(time) + " s, less than two ranges of contacts, " + std::to_string(least) +
+                     " m: begin with a larger cell or load it less");
     accounts.cell_work.sum += return_to_cell(particles);
   }
   contacts.renew(particles, walls, surfaces, {watch.verlet_distance});
@@ -219,6 +215,7 @@ void Simulation::drift()
   accounts.book_external_work(particles, last);
   accounts.step_change += step_change_here();
   const bool is_periodic = particles.cell.is_periodic();
+  require_walls_fit(particles.cell, walls); // normals and rates may have been set
   if (is_periodic)
     accounts.cell_work.begin_kick(particles, last);
   if (!advance(particles, {p.gravity, stretching(particles.cell)}, kick, dt))

@@ -43,7 +43,8 @@ class Simulation
 {
 public:
   /// @param particles at least one; a periodic cell of theirs must be at least two ranges of contacts wide, and has
-  /// neither walls nor gravity. Throws ConfigError for whatever cannot run.
+  /// neither walls across the directions in which it repeats itself nor gravity along them. Between walls it must not
+  /// deform. Throws ConfigError for whatever cannot run.
   Simulation(const SimulationParameters &parameters, Particles particles, std::vector<PlaneWall> walls);
 
   /// Goes on from a state that was stored. Throws RunError where the archive does not hold one.
@@ -69,7 +70,8 @@ public:
   /// that differs.
   void change(const SimulationParameters &parameters);
 
-  /// Between steps: removes a wall, or adds one; later walls move up by one.
+  /// Between steps: removes a wall, or adds one; later walls move up by one. Throws ConfigError for a wall across a
+  /// periodic cell.
   void remove_wall(std::int32_t index);
   void add_wall(const PlaneWall &wall);
 
@@ -118,8 +120,13 @@ public:
   GrainEnergy energy() const;
 
   /// Principal mean stresses of the periodic cell, tension positive (Wellmann 5.3) [Pa]. After compute_forces(), before
-  /// anything is removed.
-  Vec3 cell_stress() const { return contacts.virial().branch / particles.cell.volume(); }
+  /// anything is removed. Throws ConfigError for a cell that does not repeat itself in all directions: it has no
+  /// volume.
+  Vec3 cell_stress() const
+  {
+    particles.cell.require_closed("the mean stress of a cell");
+    return contacts.virial().branch / particles.cell.volume();
+  }
 
   /// See dem/motion/stable_step.h [s].
   double stable_time_step() const;

@@ -97,8 +97,9 @@ TEST_CASE("what cannot run is refused before it does, with its name, its value a
       {
         in.walls.clear();
         in.grains.cell = PeriodicCell(Vec3(1., infinity, 1.));
+        in.grains.cell.rate[1] = 0.5;
       },
-      "edge of a periodic cell", "1");
+      "rate of a periodic cell along y", "0.5");
   refused(
       [](Input &in)
       {

@@ -55,6 +55,15 @@ Cloud random_cloud(const int n, const Vec3 &extent, const double smallest, const
 
 using Pairs = std::vector<std::tuple<std::int32_t, std::int32_t, int>>; // both partners, the image of the second
 
+/// Not of a direction in which nothing repeats itself.
+bool is_image_of(const PeriodicCell &cell, const Image image)
+{
+  for (int d = 0; d < 3; ++d)
+    if (shift_of(image)[d] != 0. && !cell.is_periodic(d))
+      return false;
+  return true;
+}
+
 Pairs brute_force(const Cloud &c, const double verlet_distance)
 {
   Pairs pairs;
@@ -72,6 +81,8 @@ Pairs brute_force(const Cloud &c, const double verlet_distance)
            ++image) // all of them: none is presumed nearest
       {
         const int shift = c.cell.is_periodic() ? image : own_image;
+        if (!is_image_of(c.cell, static_cast<Image>(shift)))
+          continue;
         if ((line + c.cell.place[shift]).norm() < c.radii[i] + c.radii[j] + verlet_distance)
           pairs.emplace_back(i, j, shift);
       }
@@ -302,6 +313,37 @@ TEST_CASE("grains that have left change nothing for the others")
     gas.add(x, 0.2);
   check_list(gas, 0.05);
   CHECK(SphereRows(gas.spheres(), 0.05, {}).rows.size() <= gas.positions.size());
+}
+
+TEST_CASE("the Verlet list in cells that repeat themselves in some directions alone")
+{
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (int seed = 0; seed < 3; ++seed)
+    for (int open = 1; open < 7; ++open) // a bit for each direction
+      for (const Vec3 &edges : {Vec3(2.2, 2.7, 3.4), Vec3(6., 5.5, 7.)})
+      {
+        // Far beyond the cell where it is open, on both sides of the origin.
+        Cloud cloud = random_cloud(200, 1.3 * edges, 0.2, 0.5, seed);
+        Vec3 open_edges = edges;
+        for (int d = 0; d < 3; ++d)
+          if (open >> d & 1)
+            open_edges[d] = infinite;
+          else
+            for (Vec3 &x : cloud.positions)
+              x[d] += 0.3 * edges[d];
+        cloud.cell = PeriodicCell(open_edges);
+        CAPTURE(open, seed);
+        check_list(cloud, 0.1);
+        Cloud of_sizes = random_cloud(250, edges, 0.03, 0.1, 10 + seed); // classes of their own
+        for (int k = 0; k < 8; ++k)
+          of_sizes.radii[31 * k] = 0.5;
+        of_sizes.cell = cloud.cell;
+        check_list(of_sizes, 0.1);
+        of_sizes.sought.resize(of_sizes.positions.size());
+        for (std::size_t i = 0; i < of_sizes.sought.size(); ++i)
+          of_sizes.sought[i] = i % 5 == 0;
+        check_list(of_sizes, 0.1);
+      }
 }
 
 TEST_CASE("the Verlet list in a periodic cell of the least size and in long ones")

@@ -1,8 +1,10 @@
 #include "dem/core/error.h"
 #include "dem/packing/distribution.h"
 #include "dem/packing/overlap.h"
+#include "dem/packing/pack_grains.h"
 #include "dem/packing/space.h"
 #include "dem/packing/tightening.h"
+#include "dem/simulation/simulation.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -138,6 +140,50 @@ TEST_CASE("a periodic box")
                     Catch::Contains("along x is 2 m") && Catch::Contains("1 m") && Catch::Contains("larger box"));
   CHECK_NOTHROW(PackingSpace(Box{Vec3::Zero(), Vec3::Ones()}).require_range(1.));
   CHECK_THROWS_WITH(PackingSpace::periodic({Vec3::Zero(), Vec3(1., -1., 1.)}), Catch::Contains("along y is -1"));
+}
+
+TEST_CASE("a box that repeats in some directions has walls across the others")
+{
+  const PackingSpace space = PackingSpace::periodic({Vec3(-1., 0., 2.), Vec3(1., 3., 6.)}, {true, false, true});
+  CHECK(space.is_periodic());
+  CHECK(space.is_periodic(0));
+  CHECK_FALSE(space.is_periodic(1));
+  REQUIRE(space.walls().size() == 2);
+  for (const HalfSpace &wall : space.walls())
+    CHECK(std::abs(wall.normal[1]) == 1.);
+  CHECK((space.wrap(Vec3(1.5, -0.25, 10.5)) - Vec3(-0.5, -0.25, 2.5)).norm() < 1e-14);
+  CHECK((space.nearest_image(Vec3(1.9, -2., 2.1)) - Vec3(-0.1, -2., -1.9)).norm() < 1e-14);
+  CHECK_THROWS_WITH(space.require_range(1.), Catch::Contains("along x is 2 m"));
+  const PackingSpace narrow = PackingSpace::periodic({Vec3::Zero(), Vec3(8., 1., 8.)}, {true, false, true});
+  CHECK_NOTHROW(narrow.require_range(2.));
+  const std::vector<Superquadric> wide(1, {Vec3::Constant(0.6), 1., 1.});
+  CHECK_THROWS_WITH(place_at_random(wide, narrow, 1), Catch::Contains("is 1 m"));
+
+  // Grains reach out of the faces that repeat, as their images reach in, and meet nothing there.
+  PackingParameters packing;
+  packing.solid_fraction = 0.5;
+  const Box box{Vec3::Zero(), Vec3(5e-3, 4e-3, 6e-3)};
+  const PackedGrains packed =
+      pack_grains(GrainDistribution(), PackingSpace::periodic(box, {true, false, true}), packing, 5);
+  CHECK(packed.report.has_reached_target);
+  Particles grains = packed.particles;
+  bool reaches_out = false, stays_in = true;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+  {
+    const BodyPose pose = make_pose(grains.parts.shape[i], grains.position[i], grains.orientation[i]);
+    reaches_out = reaches_out || pose.position[0] + support(pose, Vec3::UnitX()).height > box.high[0];
+    stays_in = stays_in && pose.position[1] + support(pose, Vec3::UnitY()).height <= box.high[1] &&
+               pose.position[1] >= support(pose, -Vec3::UnitY()).height;
+  }
+  CHECK(reaches_out);
+  CHECK(stays_in);
+  grains.cell = PeriodicCell(Vec3(box.high[0], std::numeric_limits<double>::infinity(), box.high[2]));
+  SimulationParameters still;
+  still.time_step = 1e-9;
+  Simulation s(still, grains, {});
+  s.compute_forces();
+  CHECK(s.contacts.n_candidates() > 0);
+  CHECK(s.contacts.n_touching() == 0);
 }
 
 TEST_CASE("the largest sphere inside a grain")

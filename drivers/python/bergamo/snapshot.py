@@ -15,6 +15,7 @@ from .contacts import NO_GRAIN, Contacts
 from .errors import MissingData
 from .grains import Grains
 from .parameters import Section, parse_parameters
+from .periodic import cell_of_edges
 from .shapes import Parts
 from .surfaces import Surfaces
 
@@ -56,11 +57,10 @@ class Snapshot(Archive):
 
     @property
     def cell(self) -> np.ndarray | None:
-        """Edges of the periodic cell now, (3,) [m], from the origin; none where nothing repeats itself. That of the
-        contacts is one step back as they are.
+        """Edges of the periodic cell now, (3,) [m], from the origin, infinite along axes where nothing repeats itself; none
+        where nothing does. That of the contacts is one step back as they are.
         """
-        edges = self._of_grains("particles/cell/edges")
-        return edges if np.isfinite(edges).all() else None
+        return cell_of_edges(self._of_grains("particles/cell/edges"))
 
     @cached_property
     def grains(self) -> Grains:
@@ -119,8 +119,7 @@ class Snapshot(Archive):
         for name in ("first", "second"):
             row = rows[name].astype(np.int64)
             rows[name] = np.where(row == NO_GRAIN, NO_GRAIN, grains.id[row])
-        return Contacts(self.time - back, **rows, cell=edges if np.isfinite(edges).all() else None, fields=fields,
-                        source=self.path)
+        return Contacts(self.time - back, **rows, cell=cell_of_edges(edges), fields=fields, source=self.path)
 
     @property
     def continuum(self) -> dict[str, np.ndarray]:

@@ -4,6 +4,7 @@
 
 #include "dem/loading/cell_loading.h"
 #include "dem/loading/compression.h"
+#include "dem/simulation/cell_rules.h"
 
 #include <map>
 
@@ -61,6 +62,7 @@ std::int64_t load_cell(Model &model, const py::handle &stage, const double densi
   dem::Simulation &simulation = model.simulation();
   if (!simulation.particles.cell.is_periodic())
     throw ConfigError("only a periodic cell can be loaded: give the grains a cell before the simulation is made");
+  simulation.particles.cell.require_closed("the loading of a cell");
   dem::CellLoading loading(stage_of(stage), dem::mean_grain(simulation.particles), density);
   loading.begin(simulation);
   bool is_done = false;
@@ -119,7 +121,11 @@ void bind_loading(py::object &object)
               throw ConfigError("there is no periodic cell whose rate could be set");
             const Vec3 wanted = vector_of(rate, "rate of the periodic cell");
             require(wanted.allFinite(), "rate of the periodic cell", wanted.sum(), "finite [m/s]");
-            cell.rate = wanted;
+            dem::PeriodicCell changed = cell;
+            changed.rate = wanted;
+            changed.validate();
+            dem::require_walls_fit(changed, model.simulation().walls);
+            cell = changed;
           });
 }
 

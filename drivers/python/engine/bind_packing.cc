@@ -6,6 +6,9 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
+#include <limits>
+
 namespace py = pybind11;
 
 namespace bergamo::python
@@ -39,7 +42,8 @@ dem::Grading grading_of(const py::handle &grading)
   return curve;
 }
 
-/// From (kind, ...): box and periodic (low, high), cylinder (base, radius, height), polyhedron (normals, offsets).
+/// From (kind, ...): box (low, high), periodic (low, high, repeats), cylinder (base, radius, height), polyhedron
+/// (normals, offsets).
 dem::PackingSpace space_of(const py::tuple &space)
 {
   const auto kind = py::cast<std::string>(space[0]);
@@ -58,7 +62,18 @@ dem::PackingSpace space_of(const py::tuple &space)
     return dem::PackingSpace::polyhedron(std::move(planes));
   }
   const dem::Box box{vector_of(space[1], "lower corner of a box"), vector_of(space[2], "upper corner of a box")};
-  return kind == "periodic" ? dem::PackingSpace::periodic(box) : dem::PackingSpace(box);
+  return kind == "periodic" ? dem::PackingSpace::periodic(box, py::cast<std::array<bool, 3>>(space[3]))
+                            : dem::PackingSpace(box);
+}
+
+/// The cell of grains that were packed in a periodic box.
+dem::PeriodicCell cell_of(const dem::PackingSpace &room)
+{
+  Vec3 edges = room.bounds().edges();
+  for (int d = 0; d < 3; ++d)
+    if (!room.is_periodic(d))
+      edges[d] = std::numeric_limits<double>::infinity();
+  return dem::PeriodicCell(edges);
 }
 
 /// Ends a tightening where a signal has come, whose exception stays set.
@@ -111,7 +126,7 @@ py::tuple pack(const py::handle &grading, const py::tuple &space, const py::obje
   }
   interruption.raise();
   if (room.is_periodic())
-    packed.particles.cell = dem::PeriodicCell(room.bounds().edges());
+    packed.particles.cell = cell_of(room);
   return py::make_tuple(std::move(packed.particles), report_of(packed.report));
 }
 

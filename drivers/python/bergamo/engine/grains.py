@@ -74,7 +74,8 @@ class Clump:
 class Grains:
     """n grains for a simulation: rigid bodies at rest, fixed or moving, with their shapes. Global frame, SI units.
 
-    @param cell edges of a periodic cell from the origin, (3,) [m]; none: nothing repeats itself
+    @param cell edges of a periodic cell from the origin, (3,) [m]; None or inf for an axis along which nothing repeats
+    itself, None for all
     """
 
     def __init__(self, cell: ArrayLike | None = None) -> None:
@@ -134,11 +135,13 @@ class Grains:
 
     @property
     def cell(self) -> np.ndarray | None:
-        """Edges of the periodic cell, (3,) [m], or none."""
+        """Edges of the periodic cell, (3,) [m], infinite along axes where nothing repeats itself; or none."""
         return self._particles.cell
 
     @cell.setter
     def cell(self, edges: ArrayLike | None) -> None:
+        if edges is not None and not isinstance(edges, np.ndarray):
+            edges = [np.inf if edge is None else edge for edge in edges]
         self._particles.cell = edges
 
     def __len__(self) -> int:

@@ -67,9 +67,14 @@ class Space:
         return Space("box", (low, high))
 
     @staticmethod
-    def periodic(edges: ArrayLike) -> Space:
-        """A box from the origin that repeats itself: the grains get it as their cell. @param edges (3,) [m]"""
-        return Space("periodic", ((0., 0., 0.), edges))
+    def periodic(edges: ArrayLike, repeats: Sequence[bool] = (True, True, True)) -> Space:
+        """A box from the origin that repeats itself along some axes and has walls across the others: the grains get it as
+        their cell, with infinite edges where there are walls. @param edges (3,) [m]; repeats along x, y and z
+        """
+        if len(repeats) != 3 or not any(repeats):
+            raise ConfigError(f"the axes along which a periodic box repeats itself are {tuple(repeats)}: give three values, "
+                              "one of them true; Space.box() repeats itself along none")
+        return Space("periodic", ((0., 0., 0.), edges, tuple(bool(one) for one in repeats)))
 
     @staticmethod
     def cylinder(base: ArrayLike, radius: float, height: float) -> Space:

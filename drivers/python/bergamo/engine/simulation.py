@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..contacts import Contacts
+from ..periodic import cell_of_edges
 from .arrays import Arrays
 from .bodies import Plane, Surface
 from .drawing import draw_into, make_folder
@@ -31,7 +32,7 @@ class Simulation(Arrays):
     step. One thread at a time: while one steps, others get Busy.
 
     @param grains at least one; they are copied, and sorted by place: ids, which are rows of `grains`, say who is who
-    @param planes, surfaces none in a periodic cell
+    @param planes in a periodic cell along the axes in which it repeats itself alone; surfaces none in one
     """
 
     def __init__(self, parameters: Parameters, grains: Grains, planes: Iterable[Plane] = (),
@@ -216,9 +217,11 @@ class Simulation(Arrays):
 
     @property
     def cell(self) -> np.ndarray | None:
-        """Edges of the periodic cell now, (3,) [m], from the origin; none where nothing repeats itself."""
+        """Edges of the periodic cell now, (3,) [m], from the origin, infinite along axes where nothing repeats itself; none
+        where nothing does.
+        """
         edges = self._model.cell_edges
-        return edges if np.isfinite(edges).all() else None
+        return cell_of_edges(edges)
 
     @property
     def cell_rate(self) -> np.ndarray:

@@ -20,7 +20,7 @@ XYZ = ("species:I:1:pos:R:3:id:I:1:molecule:I:1:velo:R:3:aspherical_shape:R:3:or
 def write_dump(grains: Grains, path: Path, cell: np.ndarray | None = None) -> Path:
     """A dump of one time step. @param cell (3,) edges of a periodic cell from the origin [m]"""
     low, high = bounds(grains, cell)
-    kind = "ff ff ff" if cell is None else "pp pp pp"
+    kind = " ".join("pp" if repeats else "ff" for repeats in repeating(cell))
     edges = "".join(f"{EXACT} {EXACT}\n" % (a, b) for a, b in zip(low, high))
     number, material, carrier = names_of_parts(grains)
     head = (f"ITEM: TIME\n{EXACT % time_of(grains)}\nITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{len(grains.parts)}\n"
@@ -35,7 +35,7 @@ def write_xyz(grains: Grains, path: Path, cell: np.ndarray | None = None) -> Pat
     low, high = bounds(grains, cell)
     a, b, c = (EXACT % edge for edge in high - low)
     number, material, carrier = names_of_parts(grains)
-    periodic = "F F F" if cell is None else "T T T"
+    periodic = " ".join("T" if repeats else "F" for repeats in repeating(cell))
     head = (f"{len(grains.parts)}\nLattice=\"{a} 0 0 0 {b} 0 0 0 {c}\" Origin=\"{' '.join(EXACT % x for x in low)}\" "
             f"Properties={XYZ} Time={EXACT % time_of(grains)} pbc=\"{periodic}\"\n")
     parts = grains.parts
@@ -62,10 +62,15 @@ def time_of(grains: Grains) -> float:
 
 
 def bounds(grains: Grains, cell: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
-    """Corners of the periodic cell or of a box about all grains, (3,) each [m]."""
-    if cell is not None:
-        return np.zeros(3), cell
-    if len(grains) == 0:
-        return np.zeros(3), np.ones(3)
-    reach = np.linalg.norm(grains.parts.half_axes, axis=1)[:, None]  # no point of a superquadric is farther
-    return (grains.parts.centre - reach).min(axis=0), (grains.parts.centre + reach).max(axis=0)
+    """Corners, (3,) each [m], of the periodic cell, along axes without one of a box about all grains."""
+    low, high = np.zeros(3), np.ones(3)
+    if len(grains) > 0:
+        reach = np.linalg.norm(grains.parts.half_axes, axis=1)[:, None]  # no point of a superquadric is farther
+        low, high = (grains.parts.centre - reach).min(axis=0), (grains.parts.centre + reach).max(axis=0)
+    repeats = repeating(cell)
+    return np.where(repeats, 0., low), np.where(repeats, cell, high) if repeats.any() else high
+
+
+def repeating(cell: np.ndarray | None) -> np.ndarray:
+    """Whether a cell repeats itself along x, y and z, (3,)."""
+    return np.zeros(3, dtype=bool) if cell is None else np.isfinite(cell)

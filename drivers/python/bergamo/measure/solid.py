@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import BadArgument
 from ..grains import Grains
+from ..periodic import image_shifts
 from .stresses import checked_box
 
 
@@ -69,8 +70,7 @@ def solid_fraction_in(grains: Grains, region: Region, n: int = 100, cell: np.nda
     axes = [low[d] + (np.arange(counts[d]) + 0.5) * spacings[d] for d in range(3)]
     is_solid = np.zeros(counts, dtype=bool)
     parts, radius = grains.parts, bounding_radii(grains)
-    steps = np.stack(np.meshgrid(*[(-1, 0, 1)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    for shift in [np.zeros(3)] if cell is None else steps * np.asarray(cell, dtype=float):
+    for shift in image_shifts(cell):
         near = (parts.centre + shift > low - radius[:, None]).all(axis=1) & \
             (parts.centre + shift < high + radius[:, None]).all(axis=1)
         for part in np.flatnonzero(near):

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 
 from ..contacts import Contacts
 from ..errors import BadArgument
+from ..periodic import image_shifts
 
 
 def force_moment(contacts: Contacts) -> np.ndarray:
@@ -27,6 +26,9 @@ def stress(contacts: Contacts, volume: float | None = None) -> np.ndarray:
     if volume is None:
         if contacts.cell is None:
             raise BadArgument("these contacts are in no periodic cell: give the volume of the stress [m^3]")
+        if not np.isfinite(contacts.cell).all():
+            raise BadArgument(f"the cell of these contacts has the edges {contacts.cell} and so no volume: give that of the "
+                              "stress [m^3]")
         volume = float(np.prod(contacts.cell))
     if not 0 < volume < np.inf:
         raise BadArgument(f"the volume of the stress is {volume}; it must be positive and finite [m^3]")
@@ -67,9 +69,7 @@ def share_in_box(start: np.ndarray, branch: np.ndarray, low: np.ndarray, high: n
 
 def images(contacts: Contacts) -> list[np.ndarray]:
     """Shifts of the images of a periodic cell, (3,) each [m]; none but zero without one."""
-    if contacts.cell is None:
-        return [np.zeros(3)]
-    return [np.array(shift) * contacts.cell for shift in itertools.product((-1, 0, 1), repeat=3)]
+    return image_shifts(contacts.cell)
 
 
 def checked_box(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
