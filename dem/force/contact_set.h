@@ -14,6 +14,8 @@
 namespace bergamo::dem
 {
 
+struct CellCopies;
+
 /// New place of a part that was removed.
 inline constexpr std::int32_t removed_part = -1;
 
@@ -46,6 +48,10 @@ public:
   /// Follows a new order of the parts, new_part[old] or removed_part; history with a removed one is booked as loss. The
   /// candidates must be renewed afterwards. @param n_parts that stay
   void reorder(const std::vector<std::int32_t> &new_part, std::size_t n_parts);
+
+  /// Follows the parts of a periodic cell to its copies as repeated() puts them: each has the contacts of the cell,
+  /// with their history. The candidates must be renewed afterwards. @param n_parts of the cell
+  void repeat(const CellCopies &copies, std::size_t n_parts);
 
   /// Drops all contacts of n walls or features at the next renewal, whose history is then booked as loss; later ones
   /// move up.

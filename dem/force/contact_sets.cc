@@ -1,3 +1,4 @@
+#include "dem/force/contact_set_copies.h"
 #include "dem/force/contact_set_renewal.h"
 #include "dem/force/contact_set_step.h"
 #include "dem/force/kinds/grain_grain.h"

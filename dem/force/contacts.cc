@@ -78,6 +78,11 @@ void Contacts::reorder(const std::vector<std::int32_t> &part_order, const std::s
   for_each_set(*this, [&](auto &set, std::int32_t) { set.reorder(new_part, part_order.size()); });
 }
 
+void Contacts::repeat(const CellCopies &copies, const std::size_t n_parts)
+{
+  for_each_set(*this, [&](auto &set, std::int32_t) { set.repeat(copies, n_parts); });
+}
+
 void Contacts::remove_wall(const std::int32_t wall)
 {
   for (ContactSet<GrainPlane> &set : grain_plane)

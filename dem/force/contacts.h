@@ -63,6 +63,10 @@ public:
   /// @param n_old parts before
   void reorder(const std::vector<std::int32_t> &part_order, std::size_t n_old);
 
+  /// Gives the copies of a periodic cell the contacts that it has, see ContactSet::repeat(). Losses stay as they are.
+  /// @param n_parts of the cell
+  void repeat(const CellCopies &copies, std::size_t n_parts);
+
   /// Drops all contacts of one wall at the next renewal; later walls move up by one.
   void remove_wall(std::int32_t wall);
 

@@ -25,6 +25,8 @@ class StateReader;
 namespace bergamo::dem
 {
 
+struct CellCopies;
+
 /// What left a simulation or came into it.
 struct Exchange
 {
@@ -74,6 +76,15 @@ public:
   /// periodic cell.
   void remove_wall(std::int32_t index);
   void add_wall(const PlaneWall &wall);
+
+  /// Copies of the periodic cell side by side, in a cell of as many edges: in the same balance, with the contacts of
+  /// the cell and their history, so that they go on as the cell does until roundings part them. Between steps, or with
+  /// the forces of a step. Energy accounts begin anew. Throws ConfigError for copies along what does not repeat itself.
+  Simulation repeated(const CellCopies &copies) const;
+
+  /// The cell repeats itself no more, in any direction: grains keep what they have but the contacts across its faces,
+  /// whose energy is booked as exchanged. @param shift of all grains, along directions of the cell [m]
+  void open_cell(const Vec3 &shift = Vec3::Zero());
 
   /// Between steps: adds a surface, at rest. Throws ConfigError as its validate() does, or in a periodic cell.
   void add_surface(Surface surface);

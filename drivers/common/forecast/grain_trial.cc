@@ -1,6 +1,7 @@
 #include "drivers/common/forecast/grain_trial.h"
 
 #include "dem/loading/cell_room.h"
+#include "dem/state/repeated.h"
 #include "drivers/common/forecast/step_trial.h"
 
 #include <algorithm>
@@ -17,21 +18,6 @@ constexpr double loose = 0.55, dense = 0.6; // solid fractions, as it is packed 
 constexpr double most_packed = 400;         // grains: packing takes longer than trying
 constexpr double most_tried = 4000;         // beyond, a grain costs the same
 constexpr std::uint64_t seed_of_trial = 1;
-
-/// Copies of a periodic cell, side by side along every axis.
-dem::Particles repeated(const dem::Particles &cell, const int n_along)
-{
-  dem::Particles all;
-  const Vec3 edges = cell.cell.edges;
-  for (int i = 0; i < n_along * n_along * n_along; ++i)
-    for (std::size_t k = 0; k < cell.size(); ++k)
-    {
-      all.append(cell, k, static_cast<std::int64_t>(all.size()));
-      all.position.back() += edges.cwiseProduct(Vec3(i % n_along, i / n_along % n_along, i / n_along / n_along));
-    }
-  all.cell = dem::PeriodicCell(n_along * edges);
-  return all;
-}
 
 } // namespace
 
@@ -59,7 +45,8 @@ dem::Particles GrainTrial::packing(const double density) const
     place *= shrinking;
   packed.cell = dem::PeriodicCell(Vec3::Constant(shrinking * edge));
   const double n_copies = std::min(n_grains(), most_tried) / static_cast<double>(packed.size());
-  return repeated(packed, std::max(1, static_cast<int>(std::round(std::cbrt(n_copies)))));
+  const int n_along = std::max(1, static_cast<int>(std::round(std::cbrt(n_copies))));
+  return dem::repeated(packed, {{n_along, n_along, n_along}});
 }
 
 double GrainTrial::seconds_of_step(const dem::SimulationParameters &parameters)

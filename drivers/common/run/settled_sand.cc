@@ -10,14 +10,29 @@
 #include "drivers/common/sand_file.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 namespace bergamo::driver
 {
 namespace
 {
 
-constexpr std::int32_t lid = 5; // of box_walls()
+/// Nothing where the user interrupts it.
+std::optional<dem::Particles> pack(const SandParameters &sand, const dem::PackingSpace &space,
+                                   const dem::SimulationParameters &settling)
+{
+  dem::PackingParameters packing;
+  packing.solid_fraction = sand.solid_fraction;
+  packing.density = settling.grain().density;
+  packing.tightening.is_stopped = interrupted;
+  dem::PackedGrains packed = dem::pack_grains(sand.distribution, space, packing, sand.seed);
+  if (interrupted()) // grains are too small
+    return {};
+  require_target(packed, packing.solid_fraction, "Sand/solid fraction");
+  return std::move(packed.particles);
+}
 
 double mean_speed_of(const dem::Particles &grains)
 {
@@ -38,15 +53,21 @@ std::unique_ptr<dem::Simulation> pack_sand(Progress &progress, const SandParamet
     progress.note(file.statement);
     return std::make_unique<dem::Simulation>(settling, std::move(file.particles), dem::box_walls(box));
   }
-  dem::PackingParameters packing;
-  packing.solid_fraction = sand.solid_fraction;
-  packing.density = settling.grain().density;
-  packing.tightening.is_stopped = interrupted;
-  dem::PackedGrains packed = dem::pack_grains(sand.distribution, box, packing, sand.seed);
-  if (interrupted()) // grains are too small
+  std::optional<dem::Particles> packed = pack(sand, box, settling);
+  return packed ? std::make_unique<dem::Simulation>(settling, std::move(*packed), dem::box_walls(box)) : nullptr;
+}
+
+std::unique_ptr<dem::Simulation> pack_sand_tile(const SandParameters &sand, const dem::Box &tile,
+                                                const dem::SimulationParameters &settling)
+{
+  std::optional<dem::Particles> packed = pack(sand, dem::PackingSpace::periodic(tile, {true, false, false}), settling);
+  if (!packed)
     return nullptr;
-  require_target(packed, packing.solid_fraction, "Sand/solid fraction");
-  return std::make_unique<dem::Simulation>(settling, std::move(packed.particles), dem::box_walls(box));
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  packed->cell = dem::PeriodicCell({tile.edges()[0], infinite, infinite});
+  std::vector<dem::PlaneWall> walls = dem::box_walls(tile);
+  walls.erase(walls.begin(), walls.begin() + 2); // across x
+  return std::make_unique<dem::Simulation>(settling, std::move(*packed), std::move(walls));
 }
 
 bool settle_sand(Run &run, dem::Simulation &sand, const SandParameters &p)
@@ -77,7 +98,8 @@ SettledSand end_settling(dem::Simulation &sand, const SandParameters &p, const d
   settled.solid_fraction = dem::solid_fraction(grains, p.box[0] * p.box[1] * settled.height);
   settled.coordination_number = dem::mean_coordination(sand.contacts, grains.size());
   const double weight = p.settling_gravity * std::accumulate(grains.mass.begin(), grains.mass.end(), 0.);
-  settled.floor_share = -sand.walls[bottom_wall].force[2] / weight;
+  const auto lid = static_cast<std::int32_t>(sand.walls.size()) - 1;
+  settled.floor_share = -sand.walls[lid - 1].force[2] / weight;
   settled.mean_speed = mean_speed_of(grains);
   sand.rest();
   sand.remove_wall(lid);

@@ -18,6 +18,10 @@ namespace bergamo::driver
 std::unique_ptr<dem::Simulation> pack_sand(Progress &progress, const SandParameters &sand, const dem::Box &box,
                                            const dem::SimulationParameters &settling);
 
+/// The same between four walls, in a cell that repeats itself along x. @param tile box of the cell, from x = 0
+std::unique_ptr<dem::Simulation> pack_sand_tile(const SandParameters &sand, const dem::Box &tile,
+                                                const dem::SimulationParameters &settling);
+
 /// Lets packed sand settle, as a stage of a run, to the forces of its last step. @return false where the user has
 /// stopped the run
 bool settle_sand(Run &run, dem::Simulation &sand, const SandParameters &parameters);
@@ -47,11 +51,12 @@ struct SettledSand
 };
 
 /// Measures the sand at the end of its settling, once forces are known, then stops the grains, opens the box, and goes
-/// over to other parameters. The walls keep their order: x-, x+, y-, y+, and the bottom.
+/// over to other parameters. The walls keep their order: x-, x+, y-, y+, and the bottom; those at the ends of x are
+/// missing where the sand was a tile.
 SettledSand end_settling(dem::Simulation &sand, const SandParameters &parameters,
                          const dem::SimulationParameters &after);
 
-/// Of the walls once the box is open.
+/// Of the walls of a box once it is open.
 inline constexpr std::size_t bottom_wall = 4;
 
 } // namespace bergamo::driver
