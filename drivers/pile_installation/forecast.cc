@@ -30,11 +30,16 @@ std::unique_ptr<fe::ExplicitBody> usual_ground(const InstallationParameters &p, 
 
 Forecast InstallationParameters::forecast() const
 {
-  const SandForecast settled(sand, installing());
+  SandParameters packed = sand; // all of it, or one tile
+  const double n_tiles = std::max(1u, tiles);
+  packed.box[0] /= n_tiles;
+  const SandForecast settled(packed, installing());
   Forecast f;
   add_grains(f, settled.trial);
-  StageForecast installation{"installation",      static_cast<double>(n_steps()), true, simulation.time_step,
-                             settled.stable_step, settled.seconds_per_step};
+  for (double *of_all : {&f.n_grains, &f.n_contacts, &f.bytes_of_memory})
+    *of_all *= n_tiles;
+  StageForecast installation{"installation",      static_cast<double>(n_steps()),    true, simulation.time_step,
+                             settled.stable_step, n_tiles * settled.seconds_per_step};
   double share = 1; // of the grains that stay
   if (is_two_scale())
   {

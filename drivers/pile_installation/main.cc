@@ -78,10 +78,10 @@ bool InstallationRun::settle()
   if (installation)
     return true;
   if (!sand)
-    sand = pack_sand(run.progress(), parameters.sand, parameters.box(), parameters.settling());
+    sand = pack_ground(run.progress(), parameters);
   if (!sand || !settle_sand(run, *sand, parameters.sand))
     return false;
-  start = prepare_ground(*sand, parameters);
+  start = prepare_ground(sand, parameters);
   installation = std::make_unique<Installation>(parameters, std::move(sand), start);
   installation->settle(run.progress());
   return true;

@@ -1,6 +1,7 @@
 #include "drivers/pile_installation/parameters.h"
 
 #include "dem/core/error.h"
+#include "dem/packing/tightening.h"
 #include "drivers/common/coupling_parameters.h"
 #include "drivers/common/grain_parameters.h"
 #include "drivers/common/run/step_count.h"
@@ -86,6 +87,11 @@ void InstallationParameters::declare(ParameterFile &file)
   file.add("Pile", "time step", simulation.time_step, "[s]", Range::positive());
 
   sand.declare(file);
+  file.add(
+      "Sand", "tiles", tiles,
+      "of which the sand is made up along x: one is packed and settled, repeating itself along x, and copies of it lie "
+      "side by side; 0: the whole box is filled. Of two-scale ground alone, which needs no walls there",
+      Range::between(0, 1000));
   file.add("Sand/Settling", "friction", settling_friction, "between grains while they settle: less gives denser sand",
            Range::non_negative());
   declare_grains(file, simulation);
@@ -103,6 +109,8 @@ void InstallationParameters::declare(ParameterFile &file)
 void InstallationParameters::validate() const
 {
   sand.validate(simulation.grain(), box());
+  if (tiles > 0)
+    validate_tiles();
   sand.require_stable({"Pile/time step", simulation.time_step}, simulation.grain());
   settling().validate();
   installing().validate();
@@ -129,6 +137,21 @@ void InstallationParameters::validate_pile() const
     reject("Pile/width is ", pile.width, " m; choose less than the length of Sand/box, ", sand.box[0], " m");
   if (pile.kind == IntruderKind::cone && pile.width >= sand.box[1])
     reject("Pile/width is ", pile.width, " m across; choose less than the breadth of Sand/box, ", sand.box[1], " m");
+}
+
+void InstallationParameters::validate_tiles() const
+{
+  if (!is_two_scale())
+    reject("Sand/tiles is ", tiles,
+           ", but ground of grains alone needs walls at its ends, through which the copies' grains "
+           "would reach; choose 0, or Model/kind = two-scale");
+  if (!sand.grains_file.empty())
+    reject("Sand/tiles is ", tiles, ", but Sand/grains file is the packing of a whole box; choose 0, or no file");
+  const double largest = std::sqrt(3.) * sand.distribution.largest_half_axis, // bounding radius, at most
+      least = 2. * dem::tightening_range(largest);
+  if (tile().edges()[0] <= least)
+    reject("Sand/tiles is ", tiles, ", which makes tiles of ", tile().edges()[0], " m: they must be wider than ", least,
+           " m, so that no grain meets another one twice; choose fewer");
 }
 
 void InstallationParameters::validate_plan() const
@@ -166,6 +189,12 @@ dem::Box InstallationParameters::box() const
 {
   const Vec3 half(0.5 * sand.box[0], 0.5 * sand.box[1], 0.);
   return {-half, half + sand.box[2] * Vec3::UnitZ()};
+}
+
+dem::Box InstallationParameters::tile() const
+{
+  const dem::Box whole = box();
+  return {{0., whole.low[1], 0.}, {whole.edges()[0] / tiles, whole.high[1], whole.high[2]}};
 }
 
 dem::SimulationParameters InstallationParameters::installing() const

@@ -58,6 +58,7 @@ struct InstallationParameters
   SandParameters sand;                  ///< settles under the gravity of the whole run
   dem::SimulationParameters simulation; ///< without the pile's material
   double settling_friction = 0.24;      ///< between grains
+  unsigned int tiles = 0; ///< of which the sand is made up along x, copies of one; 0: it fills a box as a whole
 
   ContinuumParameters continuum;
   double continuum_damping = 20.; ///< mass-proportional [1/s]
@@ -81,7 +82,8 @@ struct InstallationParameters
   bool is_two_scale() const { return kind == GroundKind::two_scale; }
   bool needs_mpi() const { return is_two_scale(); } ///< to find the equilibrium it starts from
 
-  dem::Box box() const; ///< of the sand
+  dem::Box box() const;  ///< of the sand
+  dem::Box tile() const; ///< of the sand that is packed and settled where it is one of several tiles, from x = 0
   double gravity() const { return sand.settling_gravity; }
   dem::SimulationParameters settling() const;
   dem::SimulationParameters installing() const; ///< with the pile's material, see intruder_material
@@ -103,6 +105,7 @@ struct InstallationParameters
 
 private:
   void validate_plan() const;
+  void validate_tiles() const;
   void validate_pile() const;
 };
 

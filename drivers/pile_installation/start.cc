@@ -2,6 +2,7 @@
 
 #include "coupling/adapter/stress_profile.h"
 #include "dem/state/positions_by_id.h"
+#include "dem/state/repeated.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,26 @@ namespace bergamo::driver
 {
 namespace
 {
+
+/// That holds all contacts of the sand, also those across the faces of a tile.
+dem::Box room_of_contacts(const InstallationParameters &p)
+{
+  if (p.tiles == 0)
+    return p.box();
+  dem::Box room = p.tile();
+  const double width = room.edges()[0];
+  room.low[0] -= width;
+  room.high[0] += width;
+  return room;
+}
+
+/// Puts copies of a settled tile side by side, the middle of all at x = 0. The last contacts to go are those across the
+/// ends, where elements begin.
+void lay_tiles(std::unique_ptr<dem::Simulation> &sand, const InstallationParameters &p)
+{
+  sand = std::make_unique<dem::Simulation>(sand->repeated({{static_cast<int>(p.tiles), 1, 1}}));
+  sand->open_cell(p.box().low[0] * Vec3::UnitX());
+}
 
 /// Stresses of all sand over the upright one.
 Vec3 at_rest(const dem::Simulation &sand, const dem::Box &box)
@@ -44,8 +65,9 @@ dem::Particles cut_block(dem::Simulation &sand, const InstallationParameters &pa
     if (parameters.n_growths() > 0 && deepest.is_near(p.position[i], parameters.beside_block()))
       reserve.append(p, i, p.id[i]);
   }
-  for (const std::int32_t wall : {static_cast<std::int32_t>(bottom_wall), 1, 0})
-    sand.remove_wall(wall);
+  sand.remove_wall(static_cast<std::int32_t>(sand.walls.size()) - 1); // the bottom
+  while (sand.walls.size() > 2)
+    sand.remove_wall(0); // at the ends of x: of tiles there are none
   sand.remove(beyond);
   sand.integrate(); // one step: the forces to come are those without them
   return reserve;
@@ -53,12 +75,19 @@ dem::Particles cut_block(dem::Simulation &sand, const InstallationParameters &pa
 
 } // namespace
 
-InstallationStart prepare_ground(dem::Simulation &sand, const InstallationParameters &p)
+std::unique_ptr<dem::Simulation> pack_ground(Progress &progress, const InstallationParameters &p)
+{
+  return p.tiles > 0 ? pack_sand_tile(p.sand, p.tile(), p.settling())
+                     : pack_sand(progress, p.sand, p.box(), p.settling());
+}
+
+InstallationStart prepare_ground(std::unique_ptr<dem::Simulation> &settled, const InstallationParameters &p)
 {
   InstallationStart start;
-  dem::Box filled = p.box();
-  filled.high[2] = p.sand.box[2];
-  start.at_rest = at_rest(sand, filled);
+  start.at_rest = at_rest(*settled, room_of_contacts(p));
+  if (p.tiles > 0)
+    lay_tiles(settled, p);
+  dem::Simulation &sand = *settled;
   start.sand = end_settling(sand, p.sand, p.installing());
   const double mass = std::accumulate(sand.particles.mass.begin(), sand.particles.mass.end(), 0.);
   start.bulk_density = mass / (p.sand.box[0] * p.sand.box[1] * start.sand.level);

@@ -5,6 +5,7 @@
 #include "drivers/common/run/state_visitor.h"
 #include "drivers/pile_installation/parameters.h"
 
+#include <memory>
 #include <vector>
 
 namespace bergamo::driver
@@ -28,8 +29,12 @@ struct InstallationStart
   void visit(StateVisitor &visit);
 };
 
-/// Measures the settled sand, once its forces are known, and opens its box. Of two-scale ground all grains beyond the
-/// block are taken out, and the walls there: those that stay are the grains of ground of grains alone.
-InstallationStart prepare_ground(dem::Simulation &sand, const InstallationParameters &parameters);
+/// Packs the sand, or the one tile of it that others will be copies of; nothing where the user interrupts it.
+std::unique_ptr<dem::Simulation> pack_ground(Progress &progress, const InstallationParameters &parameters);
+
+/// Lays a settled tile side by side with copies of it, with all their contacts but those across the ends of the sand.
+/// Then measures the settled sand, once its forces are known, and opens its box. Of two-scale ground all grains beyond
+/// the block are taken out, and the walls there: those that stay are the grains of ground of grains alone.
+InstallationStart prepare_ground(std::unique_ptr<dem::Simulation> &sand, const InstallationParameters &parameters);
 
 } // namespace bergamo::driver

@@ -170,6 +170,21 @@ class Results(Case):
         self.assertLess(two["drift_over_grain"], alone["drift_over_grain"] + 1e-3)
         self.check_fields_at_rest(two, alone)
 
+    def test_tiles(self):
+        """Sand of two copies of a tile: as still without a pile as sand settled as a whole, it bears its weight, and a pile
+        meets it, on two threads alike."""
+        at_rest = ["Sand/tiles=2", "Pile/speed=0", "Pile/time=4e-3", "Sand/Settling/time=0.1",
+                   f"Continuum/density={self.SAND}"]
+        still = self.figures("still", at_rest)
+        self.assertEqual(still["pile_work_J"], 0)
+        self.assertLess(still["drift_over_grain"], 6e-3)  # as test_no_pile() has it
+        self.check_weight("still", still, 0.06)
+        self.assertLess(abs(still["sand_floor_share"] - 1), 0.1)
+        figures = self.figures("pressed", ["Sand/tiles=2", *SHORT])
+        self.check_balances(figures, self.table("pressed"))
+        self.figures("again", ["Sand/tiles=2", *SHORT], "--threads", "2")
+        self.assertEqual(self.table("again"), self.table("pressed"))
+
     def check_fields_at_rest(self, two, alone):
         """Ground that stands still bears its weight, inside of the overlap as well as outside."""
         self.assertAlmostEqual(alone["sand_bulk_density_kg_m3"], self.SAND, delta=0.02 * self.SAND)
@@ -263,6 +278,7 @@ class BadInput(Case):
                                ("Model/growth=0.5", ("Model/growth",)),
                                ("Model/growth depth=-1", ("Model/growth depth",)),
                                ("Model/growth depth=3e-3", ("may grow to", "Sand/box")),
+                               ("Sand/tiles=4", ("Sand/tiles is 4", "0.006 m", "choose fewer")),
                                ("Fields/sphere radius=3e-3", ("Fields/sphere radius is 0.003 m", "at most 0.00225")),
                                ("Fields/stress cell=0.03", ("Fields/stress cell is 0.03 m", "Sand/box, 0.024 m")),
                                ("Fields/spacing=1e-6", ("Fields/spacing", "more than a million cells")),
@@ -270,6 +286,9 @@ class BadInput(Case):
                                ("Continuum/Young's modulus=1e11", ("Pile/time step is 6e-06 s", "elements"))):
             with self.subTest(setting):
                 self.assert_refused([setting], *words)
+
+    def test_tiles_of_grains_alone(self):
+        self.assert_refused(["Sand/tiles=2", *GRAINS_ALONE], "Sand/tiles is 2", "walls at its ends", "two-scale")
 
     def test_end_of_the_block(self):
         """A force that drives the pile through its grains: told by name, with a remedy."""
