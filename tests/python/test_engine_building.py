@@ -233,12 +233,36 @@ class Packings(Refused):
         simulation.step(100)
         np.testing.assert_allclose(simulation.cell - edges, [0, 0, -1e-3 * 100 * simulation.parameters.time_step], atol=1e-12)
         self.refuse("rate of the periodic cell", lambda: setattr(simulation, "cell_rate", (0, 0)))
-        self.refuse("no walls", lambda: simulation.add_plane(engine.Plane()))
+        self.refuse("wall 0 .*along z", lambda: simulation.add_plane(engine.Plane()))
         self.refuse("path of a loading is 'up'", lambda: simulation.load_cell(engine.Loading(path="up")))
         box = engine.Simulation(parameters(), loose(1))
         for call in (lambda: box.load_cell(loading), lambda: box.cell_stress, lambda: setattr(box, "cell_rate", (0, 0, 0))):
             self.refuse("periodic cell", call)
         self.refuse("six", lambda: box.compress_box(engine.Compression()))
+
+    def test_a_cell_that_repeats_itself_along_one_axis(self):
+        packing = engine.pack(engine.UniformSizes(1e-3, 1.2e-3, 1., 0.),
+                              engine.Space.periodic((6e-3, 5e-3, 5e-3), repeats=(True, False, False)), solid_fraction=0.3)
+        np.testing.assert_array_equal(packing.grains.cell, [6e-3, np.inf, np.inf])
+        packing.grains.cell = 6e-3, None, None
+        np.testing.assert_array_equal(packing.grains.cell, [6e-3, np.inf, np.inf])
+        sides = engine.box_planes((0,) * 3, (6e-3, 5e-3, 5e-3))
+        simulation = engine.Simulation(parameters(time_step=1e-5), packing.grains, sides[2:])
+        simulation.velocity[:] = 0.2, 0., 0.
+        simulation.step(6000)
+        self.assertLess(np.ptp(simulation.position[:, 0]), 7e-3)  # put back into the cell
+        np.testing.assert_array_equal(simulation.cell, [6e-3, np.inf, np.inf])
+        contacts = simulation.contacts()
+        np.testing.assert_array_equal(contacts.cell, simulation.cell)
+        with self.assertRaisesRegex(bergamo.Error, "volume"):
+            bergamo.stress(contacts)
+        self.refuse("wall 4 .*along x", lambda: simulation.add_plane(sides[0]))
+        self.refuse("three finite edges", lambda: simulation.cell_stress)
+        self.refuse("three finite edges", lambda: simulation.load_cell(engine.Loading(pressure=1e3)))
+        self.refuse("rate of a periodic cell along y", lambda: setattr(simulation, "cell_rate", (0, 1, 0)))
+        self.refuse("keeps its edges", lambda: setattr(simulation, "cell_rate", (1, 0, 0)))
+        self.refuse("gravity .*along x", lambda: engine.Simulation(parameters(gravity=(1, 0, 0)), packing.grains))
+        self.refuse("give three values", lambda: engine.Space.periodic((1, 1, 1), repeats=(False,) * 3))
 
     def test_a_box_under_pressure(self):
         packing = engine.pack(engine.UniformSizes(1e-3, 1.2e-3, 1., 0.), engine.Space.box((0,) * 3, (6e-3,) * 3), solid_fraction=0.5)
