@@ -91,7 +91,7 @@ std::vector<Vec3> CellSums::shifts(const PeriodicCell &cell) const
   std::vector<Vec3> shifts{Vec3::Zero()};
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (!is_cut(axis) || !std::isfinite(cell.edges[axis]))
+    if (!is_cut(axis) || !cell.is_periodic(axis))
       continue;
     const std::vector<Vec3> before = shifts;
     for (const double sign : {-1., 1.})
