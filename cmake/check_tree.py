@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that the root holds only what is named here, and that no name of a file needs quotes.
+"""Checks that the root holds only what is named here, that no name of a file needs quotes, and that scripts can be called.
 
 In a git checkout the files are those that git tracks; elsewhere all there are, but for build*/ and results/. Prints one
 line for each violation, "file: what is wrong", and ends with status 1 if there is any.
@@ -37,12 +37,23 @@ def present(root):
             yield os.path.relpath(os.path.join(folder, file), root)
 
 
-def violation_of(path):
+def violation_of(root, path):
     if path.split("/")[0] not in ROOT:
         return "does not belong to the root, says cmake/check_tree.py"
     if not PLAIN_NAME.fullmatch(path):
         return "names are made of letters, digits and _ . + - alone"
+    place = os.path.join(root, path)
+    if os.path.isfile(place) and first_line(place).startswith(b"#!"):
+        if not os.access(place, os.X_OK):
+            return "begins as a program does, but is none: chmod +x"
+        if path.startswith("drivers/") and first_line(place).rstrip() == b"#!/usr/bin/env python3":
+            return "write #!/usr/bin/python3: another Python has none of Debian's packages"
     return None
+
+
+def first_line(place):
+    with open(place, "rb") as file:
+        return file.readline(100)
 
 
 def main():
@@ -51,7 +62,7 @@ def main():
     paths = sorted(tracked(root) or present(root))
     if not paths:
         sys.exit(f"error: no files in {root}")
-    violations = [f"{path!r}: {wrong}" for path in paths if (wrong := violation_of(path))]
+    violations = [f"{path!r}: {wrong}" for path in paths if (wrong := violation_of(root, path))]
     print("\n".join(violations) if violations else f"tree: {len(paths)} files, all in their places")
     sys.exit(1 if violations else 0)
 

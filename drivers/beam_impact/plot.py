@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Plots a run of beam_impact: displacements of sphere and beam, and the contact force, beside both closed forms (after
 fig. 4.7b of the dissertation).
 

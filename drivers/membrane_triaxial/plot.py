@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Plots runs of membrane_triaxial: stress ratio and solid fraction over the axial strain (after fig. 4.11 of the
 dissertation), and where the work of the first one goes.
 

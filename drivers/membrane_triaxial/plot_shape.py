@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws how the sample of a run of membrane_triaxial bulges: its outline at several strains, and the membrane from the
 side, coloured by the pressure of the beads on it over that around it (after fig. 4.10b of the dissertation).
 

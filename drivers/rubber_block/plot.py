@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Plots a run of rubber_block: forces on the block and its friction coefficient, pressure below it over place and time,
 and where the work goes (after fig. 4.9 of the dissertation).
 

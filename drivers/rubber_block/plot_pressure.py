@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws the block's faces at several times of a run of rubber_block, from the side and from below, coloured by the contact
 pressure over the top pressure (after fig. 4.9c of the dissertation).
 
