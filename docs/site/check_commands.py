@@ -13,15 +13,21 @@ from tree import ROOT, drivers
 SHELL = ("", "sh", "bash", "console")
 BEFORE_A_COMMAND = ("sudo", "env", "nohup", "do", "time", "/usr/bin/python3", "python3")
 WITH_VALUE = ("--set", "--output", "--threads")
+WRITES_NOTHING_NEW = ("--help", "-h", "--dry-run", "--print-parameters", "--restart", "--force")
 PATH = re.compile(r"[A-Z][\w' -]*(?:/[\w' .-]+)+")
 
 
 def mistakes(source, text):
     """@param source path of a page from the root; @param text of it"""
     driver = source.split("/")[1] if source.startswith("drivers/") else None
-    found = []
+    found, written = [], {}
     for line, command in commands(text):
         found += [f"{source}:{line}: {wrong}" for wrong in mistakes_of(command)]
+        folder = folder_of(command)
+        if folder in written:
+            found.append(f"{source}:{line}: in {folder} is the run of line {written[folder]}; give this one an --output")
+        elif folder:
+            written[folder] = line
     for line, words in spans(text):
         found += [f"{source}:{line}: {wrong}" for wrong in mistakes_of_span(words, driver)]
     return found
@@ -65,19 +71,43 @@ def split_commands(line):
             command.append(word)
 
 
-def mistakes_of(command):
-    """What is wrong with one command; nothing of what is none of the project's."""
+def program_of(command):
+    """The words of a command from its program on; none where it is a pattern of one."""
     words = list(command)
     while words and (words[0] in BEFORE_A_COMMAND or re.match(r"\w+=", words[0])):
         words.pop(0)
-    if not words or any("[" in word or "$" in word or word == "..." for word in words):
-        return
+    return [] if any("[" in word or "$" in word or word == "..." for word in words) else words
+
+
+def driver_of(words):
+    """(driver, its words) of a program that is one, right or wrong, else None."""
     name = words[0].split("/")[-1]
     if words[0] == "./run":
-        if len(words) > 1 and not words[1].startswith("-") and words[1] not in ("tests", "site", "DRIVER"):
-            yield from mistakes_of_driver(words[1], words[2:])
-    elif name in drivers() and words[0] in (name, f"build/release/drivers/{name}"):
-        yield from mistakes_of_driver(name, words[1:])
+        is_one = len(words) > 1 and not words[1].startswith("-") and words[1] not in ("tests", "site", "DRIVER")
+        return (words[1], words[2:]) if is_one else None
+    return (name, words[1:]) if name in drivers() and words[0] in (name, f"build/release/drivers/{name}") else None
+
+
+def folder_of(command):
+    """The folder that a command begins a run in, None where it begins none: a second one there is refused."""
+    words = program_of(command)
+    driver, words = words and driver_of(words) or (None, [])
+    if driver is None or any(word in WRITES_NOTHING_NEW for word in words):
+        return None
+    if "--output" in words[:-1]:
+        return words[words.index("--output") + 1].rstrip("/")
+    files = [word for word in words if word.endswith(".prm")]
+    return "results/" + (files[0].split("/")[-1].removesuffix(".prm") if files else driver)
+
+
+def mistakes_of(command):
+    """What is wrong with one command; nothing of what is none of the project's."""
+    words = program_of(command)
+    if not words:
+        return
+    driver = driver_of(words)
+    if driver:
+        yield from mistakes_of_driver(*driver)
     elif words[:2] == ["-m", "bergamo"]:
         yield from mistakes_of_package(words[2:])
     elif words[0].partition("/")[0] in top_folders() and "/" in words[0] and not (ROOT / words[0]).exists():

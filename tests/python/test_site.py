@@ -87,6 +87,16 @@ class Commands(unittest.TestCase):
             self.assertTrue(found[0].startswith("docs/page.md:5: "), found[0])
             self.assertIn(wrong, found[0])
 
+    def test_a_second_run_in_one_folder(self):
+        small = "./run penetration drivers/penetration/smoke.prm"
+        self.assertEqual(self.block(f"{small}\n./run penetration\n{small} --output results/x\n{small} --dry-run\n"
+                                    f"{small} --output results/x --restart\n./run hourglass --help"), [])
+        for first, second, folder in ((small, "./run hourglass drivers/hourglass/smoke.prm", "results/smoke"),
+                                      ("./run penetration", './run penetration --threads 2 # another', "results/penetration"),
+                                      (f"{small} --output results/x", "./run hourglass --output results/x/", "results/x")):
+            self.assertEqual(self.block(f"{first}\n{second}"),
+                             [f"docs/page.md:5: in {folder} is the run of line 4; give this one an --output"])
+
     def test_names_of_parameters_within_lines(self):
         page = ("Text with `Intruder/kind`, `Sand/Settling`, `Sand/box = 1` and\n"
                 "`Intruder/kid`; `Other/thing`, `dem/core`.\n")
