@@ -60,6 +60,13 @@ class Show(Case):
         self.assertEqual(result.stderr, "error: on: no such folder of a run; did you mean one?\n")
 
 
+class Numpy(Case):
+    def test_a_python_without_it_is_told_where_there_is_one(self):
+        result = subprocess.run(["/usr/bin/python3", "-B", "-S", "-m", "bergamo"], capture_output=True, text=True, cwd=self.tmp,
+                                env={**os.environ, "PYTHONPATH": str(ROOT / "drivers" / "python")})
+        self.assertRegex(result.stderr.splitlines()[-1], "needs NumPy, which .*python3 has not; take Debian's")
+
+
 class WatchARun(Case):
     """The clock is the test's: what happens between two looks is what sleep() does."""
 

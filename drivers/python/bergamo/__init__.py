@@ -13,6 +13,15 @@ SI units, tension positive, global frame, quaternions in the order (x, y, z, w).
 `python3 -m bergamo` shows, watches, compares and exports runs in a terminal. docs/python.md has examples.
 """
 
+try:
+    import numpy as _numpy  # noqa: F401
+except ModuleNotFoundError as _missing:
+    import sys as _sys
+    if _missing.name != "numpy":
+        raise
+    raise ModuleNotFoundError(f"bergamo needs NumPy, which {_sys.executable} has not; take Debian's /usr/bin/python3 with "
+                              "python3-numpy, or install NumPy for this one", name="numpy") from None
+
 from .archive import Archive
 from .contacts import Contacts
 from .continuum import Continuum
