@@ -52,16 +52,10 @@ void add_options(CLI::App &app, CommandLine &command_line)
 
 std::string footer(const std::string &name)
 {
-  return "Examples:\n"
-         "  " +
-         name +
-         " --print-parameters > my.prm\n"
-         "  " +
-         name + " " + name +
-         ".prm --help Output/samples\n"
-         "  " +
-         name + " " + name + ".prm continuum.prm\n  " + name + " " + name +
-         ".prm --set \"Run/seed=2\" --output results/second --threads 2\n\n"
+  const std::string begin = "  " + name + " "; // of commands that hold for every driver, whatever its parameters are
+  return "Examples:\n" + begin + "--print-parameters > my.prm\n" + begin + "my.prm --help Section/Name\n" + begin +
+         name + ".prm my.prm\n" + begin +
+         "my.prm --set \"Section/Name=value\" --output results/second --threads 2\n\n"
          "Ctrl-C ends the step, writes a snapshot and says how to go on; a second Ctrl-C, or the first one where no "
          "step\n"
          "has begun, ends the program at once.\n"

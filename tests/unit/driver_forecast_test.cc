@@ -12,6 +12,7 @@
 using namespace bergamo;
 using namespace bergamo::driver;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 
 namespace
 {
@@ -69,6 +70,7 @@ TEST_CASE("a forecast is told with what is exact and what is about")
   CHECK_THAT(text, Contains("about 6 MB in results/x; 1 TB are free\n") && Contains("6 MB      pictures, 3\n"));
   CHECK_THAT(text, Contains("about 1.16 GB; 8 GB are free\n"));
   CHECK_THAT(text, Contains("  not known  the weather\n") && !Contains("WARNING"));
+  CHECK_THAT(text, EndsWith("the weather\nNothing was computed or written: --dry-run.\n"));
 }
 
 TEST_CASE("a forecast warns where memory or disk would not do")

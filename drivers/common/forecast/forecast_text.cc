@@ -123,7 +123,7 @@ std::string text_of(const Forecast &f, const std::filesystem::path &folder, cons
                         (file.count > 1 ? ", " + count(file.count, true) : ""));
   for (const std::string &unknown : f.unknown)
     text += row("not known", unknown);
-  return text + row("", "Nothing was computed or written: --dry-run.");
+  return text + "Nothing was computed or written: --dry-run.\n"; // a line of its own, no further unknown
 }
 
 } // namespace bergamo::driver
