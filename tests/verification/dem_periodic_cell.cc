@@ -423,7 +423,7 @@ TEST_CASE("periodic cells that cannot be are refused")
   CHECK_THROWS_WITH(Simulation(sand(), narrow, {}), Catch::Contains("0.0039") && Catch::Contains("larger"));
   narrow.cell = PeriodicCell(Vec3::Constant(1e-2));
   CHECK_NOTHROW(Simulation(sand(), narrow, {}));
-  CHECK_THROWS_WITH(Simulation(sand(), narrow, {PlaneWall{}}), Catch::Contains("walls"));
+  CHECK_THROWS_WITH(Simulation(sand(), narrow, {PlaneWall{}}), Catch::Contains("wall 0"));
   SimulationParameters falling = sand();
   falling.gravity = Vec3(0., 0., -9.81);
   CHECK_THROWS_WITH(Simulation(falling, narrow, {}), Catch::Contains("gravity"));
