@@ -32,7 +32,7 @@ public:
 private:
   dem::Particles packing(double density) const;
 
-  const GradingParameters &sizes;
+  GradingParameters sizes;
   dem::Particles drawn;
   double contacts_per_grain = 0, tried_pressure = 0, tried_stable_step = 0;
 };
