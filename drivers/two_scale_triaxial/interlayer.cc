@@ -28,7 +28,7 @@ double Interlayer::weight_at(const Vec3 &place, const coupling::WeightShape shap
 
 void require_interlayer(const ElementLayers &layers)
 {
-  if (layers.continuum + 1 > layers.high())
+  if (layers.continuum >= layers.high())
     reject("Model/continuum layers is ", layers.continuum, " of ", layers.high(),
            " layers (Model/elements per height): at least one layer must be left to the grains alone");
   if ((layers.high() - layers.continuum) % 2 != 0)

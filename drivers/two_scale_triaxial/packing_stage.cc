@@ -3,6 +3,7 @@
 #include "coupling/adapter/stress_profile.h"
 #include "dem/measure/coordination.h"
 #include "dem/measure/solid_fraction.h"
+#include "dem/neighbour/sphere_rows.h"
 #include "dem/packing/grading.h"
 #include "dem/packing/random_addition.h"
 #include "dem/state/positions_by_id.h"
@@ -167,7 +168,7 @@ LoadingStart end_packing(dem::Simulation &grains, const TriaxialParameters &para
   start.reference_by_id = dem::positions_by_id(grains.particles);
   if (parameters.is_periodic())
     for (Vec3 &place : start.reference_by_id)
-      place -= start.box.edges().cwiseProduct(place.cwiseQuotient(start.box.edges()).array().floor().matrix());
+      place = dem::place_in(grains.particles.cell, place);
   if (parameters.kind == ModelKind::two_scale)
     remove_from(grains, parameters.layout(start.box));
   return start;

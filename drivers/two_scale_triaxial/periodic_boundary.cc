@@ -1,6 +1,7 @@
 #include "drivers/two_scale_triaxial/specimen_boundary.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace bergamo::driver

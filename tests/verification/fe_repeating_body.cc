@@ -219,7 +219,6 @@ TEST_CASE("a body that repeats itself rests under loads, wherever its faces are"
     ExplicitBody body = box({true, true, false});
     for (unsigned int i = 0; i < 3; ++i)
       body.prescribe_velocity(4, i); // its floor
-    std::vector<bool> is_loaded(body.n_nodes());
     for (std::size_t node = 0; node < body.n_nodes(); ++node)
       if (body.images().first_of(node) == node) // its images bear nothing
         for (unsigned int i = 0; i < 3; ++i)
