@@ -87,7 +87,8 @@ bool MembraneTriaxialRun::make_sample()
 
 Snapshot MembraneTriaxialRun::sample_in(const std::filesystem::path &path) const
 {
-  return Snapshot(path, "sample in a mould", parameters.sample_text());
+  return Snapshot(path, "sample in a mould", parameters.sample_text(),
+                  "give those of the sample, or leave Mould/sample out");
 }
 
 void MembraneTriaxialRun::begin_test(std::unique_ptr<dem::Simulation> grains)

@@ -15,7 +15,7 @@ import concurrent.futures
 import csv
 
 import numpy as np
-from study_runs import STRESSES, argument_parser, errors, run, run_data
+from study_runs import STRESSES, argument_parser, errors, run, run_data, same_packing
 
 AXES = {f"axis {axis}": {"Loading/axis": axis} for axis in "zxy"}
 # A step needs a layer more below it; corners of it have little mass, so a softer penalty keeps the time step.
@@ -125,9 +125,12 @@ def main():
     folder, program = arguments.folder.resolve(), arguments.program.resolve()
     path_of = lambda name: folder / name.replace(",", "").replace(" ", "-")
     jobs = jobs_of(dict(text.split("=", 1) for text in getattr(arguments, "set")))
+    first, *others = jobs
+    is_done = run(program, path_of(first), jobs[first])
+    packing = same_packing(path_of(first))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        done = list(pool.map(lambda name: run(program, path_of(name), jobs[name]), jobs))
-    if not all(done):
+        done = list(pool.map(lambda name: run(program, path_of(name), {**jobs[name], **packing}), others))
+    if not (is_done and all(done)):
         raise SystemExit("error: not all runs have ended; see above, then call again")
     write_table(folder, [name for name in jobs if not name.startswith("grains alone")], path_of)
     print((folder / "cube.csv").read_text(), end="")

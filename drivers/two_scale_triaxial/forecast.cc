@@ -53,9 +53,14 @@ Forecast TriaxialParameters::forecast() const
     GrainTrial trial(grading(), expected_solid_fraction * edges().prod(), seed);
     const double seconds = trial.seconds_of_step(loading_simulation());
     add_grains(f, trial);
-    f.stages.push_back(packing(*this, cost_of_packing * seconds));
     const double stable = trial.stable_step(compression.pressure);
-    f.stages[0].stable_step = stable;
+    if (sample.empty())
+    {
+      f.stages.push_back(packing(*this, cost_of_packing * seconds));
+      f.stages.back().stable_step = stable;
+      f.files.push_back({"sample", 1, f.n_grains * bytes_of_grain});
+      f.unknown.emplace_back("when the packing is at rest: the usual time is told");
+    }
     loading.stable_step = loading.stable_step > 0 ? std::min(stable, loading.stable_step) : stable;
     double overlap = 0;
     if (kind == ModelKind::two_scale)
@@ -68,7 +73,6 @@ Forecast TriaxialParameters::forecast() const
     }
     loading.seconds_per_step += seconds * (share + cost_of_coupling * overlap);
     f.files.push_back(grain_pictures(output.n_pictures, share * f.n_grains, 6));
-    f.unknown.emplace_back("when the packing is at rest: the usual time is told");
   }
   f.stages.push_back(loading);
   f.add_own_files(output.snapshot_interval, share * f.n_grains * bytes_of_grain + f.n_nodes * 1e3);

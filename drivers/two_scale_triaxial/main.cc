@@ -12,19 +12,21 @@ namespace
 using namespace bergamo;
 using namespace bergamo::driver;
 
+constexpr const char *sample_file = "sample.h5"; // of the packing, for other runs
+
 /// One run of the test: packing, loading, files.
 class TriaxialRun
 {
 public:
   TriaxialRun(const TriaxialParameters &p, const CommandLine &command_line, const std::string &parameter_text)
-      : parameters(p), run(command_line, {"two-scale triaxial test", parameter_text, p.output.snapshot_interval}),
+      : parameters(p), run(command_line, {"two-scale triaxial test", parameter_text, p.output.snapshot_interval, {sample_file}}),
         pictures(run.folder().path())
   {
     if (run.keep([this](StateVisitor &v) { visit(v); }))
       return;
     require_stable_continuum(p);
     if (p.has_grains())
-      packing.emplace(begin_packing(p));
+      packing.emplace(p.sample.empty() ? begin_packing(p) : read_sample(p));
     start.box = {Vec3::Zero(), p.edges()};
     if (!p.has_grains())
       specimen = std::make_unique<Specimen>(p, nullptr, start);
@@ -77,9 +79,14 @@ void TriaxialRun::visit(StateVisitor &visit)
 bool TriaxialRun::pack()
 {
   dem::Simulation &grains = *packing->grains;
-  if (!run.advance(stage_of(*packing, parameters.expected_solid_fraction),
-                   {{every_steps(200), [&] { grains.check_finite(); }}}))
-    return false;
+  if (parameters.sample.empty())
+  {
+    if (!run.advance(stage_of(*packing, parameters.expected_solid_fraction),
+                     {{every_steps(200), [&] { grains.check_finite(); }}}))
+      return false;
+    grains.integrate();
+    write_sample(run.folder().file(sample_file), grains, parameters);
+  }
   packing_steps = grains.n_steps;
   start = end_packing(grains, parameters);
   specimen = std::make_unique<Specimen>(parameters, std::move(packing->grains), start);

@@ -13,7 +13,7 @@ import concurrent.futures
 import csv
 import statistics
 
-from study_runs import STRESSES, argument_parser, errors, run, run_data
+from study_runs import STRESSES, argument_parser, errors, run, run_data, same_packing
 
 FILES = ("two_scale_triaxial.prm", "nearly_elastic.prm")
 
@@ -62,7 +62,8 @@ def measure(program, folder, seeds, chosen):
                       seeds))
         for seed in seeds:
             modulus, ratio = elasticity(run_data.read_history(alone[seed]))
-            continuum = {"Continuum/Young's modulus": modulus, "Continuum/Poisson's ratio": ratio, "Packing/seed": seed}
+            continuum = {"Continuum/Young's modulus": modulus, "Continuum/Poisson's ratio": ratio, "Packing/seed": seed,
+                         **same_packing(alone[seed])}
             jobs.append((None, "continuum alone", seed, {**continuum, "Model/kind": "continuum"}))
             for group, variants in VARIANTS.items():
                 if not chosen or group in chosen:

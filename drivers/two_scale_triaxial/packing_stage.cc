@@ -9,6 +9,7 @@
 #include "dem/state/positions_by_id.h"
 #include "drivers/common/interrupt.h"
 #include "drivers/common/packing_target.h"
+#include "drivers/common/run/snapshot.h"
 #include "drivers/common/run/visit_models.h"
 
 #include <algorithm>
@@ -107,6 +108,12 @@ PackingStage pack_in_cell(const TriaxialParameters &parameters)
   return {std::move(grains), dem::Compression(parameters.compression), std::move(loading)};
 }
 
+Snapshot sample_in(const std::filesystem::path &file, const TriaxialParameters &parameters)
+{
+  return Snapshot(file, "packing for a triaxial test", parameters.sample_text(),
+                  "give those of the sample, or leave Packing/sample out");
+}
+
 } // namespace
 
 void PackingStage::step()
@@ -120,6 +127,22 @@ void PackingStage::step()
 PackingStage begin_packing(const TriaxialParameters &parameters)
 {
   return parameters.is_periodic() ? pack_in_cell(parameters) : pack_between_walls(parameters);
+}
+
+void write_sample(const std::filesystem::path &file, const dem::Simulation &grains,
+                  const TriaxialParameters &parameters)
+{
+  sample_in(file, parameters)
+      .write([&](StateVisitor &visit) { visit_grains(visit, &grains, parameters.packing_simulation()); });
+}
+
+PackingStage read_sample(const TriaxialParameters &parameters)
+{
+  PackingStage sample{nullptr, dem::Compression(parameters.compression), {}};
+  sample_in(parameters.sample, parameters)
+      .read([&](StateVisitor &visit)
+            { sample.grains = visit_grains(visit, nullptr, parameters.packing_simulation()); });
+  return sample;
 }
 
 void visit_packing(StateVisitor &visit, std::optional<PackingStage> &packing, const TriaxialParameters &parameters)
@@ -155,6 +178,7 @@ Stage stage_of(PackingStage &packing, const double aim)
 
 LoadingStart end_packing(dem::Simulation &grains, const TriaxialParameters &parameters)
 {
+  grains.compute_forces(); // of a step that is done by whoever reads a sample, too
   LoadingStart start;
   start.box = box_of(grains);
   start.solid_fraction = dem::solid_fraction(grains.particles, start.box.volume());

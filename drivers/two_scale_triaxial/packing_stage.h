@@ -6,6 +6,7 @@
 #include "drivers/common/run/run.h"
 #include "drivers/two_scale_triaxial/parameters.h"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,6 +29,14 @@ struct PackingStage
 /// Draws and places the grains. @throws ConfigError where they do not fit
 PackingStage begin_packing(const TriaxialParameters &parameters);
 
+/// A packing that other runs may start from, moved on to the step after its last. Reading throws ConfigError for one of
+/// other parameters, naming the first that differs, and RunError for a file that is missing, damaged or of another kind.
+/// @{
+void write_sample(const std::filesystem::path &file, const dem::Simulation &grains,
+                  const TriaxialParameters &parameters);
+PackingStage read_sample(const TriaxialParameters &parameters);
+/// @}
+
 /// The state of a packing under way, by name; in reading it is made.
 void visit_packing(StateVisitor &visit, std::optional<PackingStage> &packing, const TriaxialParameters &parameters);
 
@@ -49,6 +58,7 @@ struct LoadingStart
 
 /// Stops a packing's grains and walls where they are, for the loading. Grains with their centre where a
 /// continuum will be alone are taken out, and the floor: those that stay are grains of a specimen of grains alone.
+/// @param grains moved on to the step after the packing's last
 LoadingStart end_packing(dem::Simulation &grains, const TriaxialParameters &parameters);
 
 } // namespace bergamo::driver

@@ -5,6 +5,7 @@
 #include "drivers/common/coupling_parameters.h"
 #include "drivers/common/grain_parameters.h"
 #include "drivers/common/loading_parameters.h"
+#include "drivers/common/number_text.h"
 #include "drivers/common/run/step_count.h"
 
 #include <cmath>
@@ -26,11 +27,6 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Model", "edge", edge, "edge of the cube [m]", Range::positive().usual(1e-4, 10));
   file.add("Model", "elements per edge", layers.per_edge, "hexahedra along an edge of the cube",
            Range::between(2, 200));
-  file.add(
-      "Model", "sides", sides,
-      "what bounds the specimen: smooth walls, or a cell that repeats itself in all directions, with the continuum "
-      "half-way up and an overlap at either face of it",
-      {{"walls", Sides::walls}, {"periodic", Sides::periodic}});
   file.add("Model", "elements per height", layers.per_height,
            "layers of elements, or of grains as thick, along z of a periodic cell; 0: as many as along an edge",
            Range::between(0, 1000));
@@ -50,26 +46,12 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Model", "large strain", large_strain,
            "elements of the present shape, for soil that strains by more than a percent or turns; not of bending ones");
 
-  declare_distribution(file, "Grains", distribution);
-  declare_grains(file, simulation);
+  declare_sample(file);
   file.add("Grains", "friction", simulation.between_grains().friction,
            "Coulomb's coefficient between grains during the loading", Range::non_negative().usual(0, 10));
   declare_overlap_tolerance(file, "Grains", simulation.contact.overlap_tolerance);
-
-  file.add("Packing", "seed", seed, "of all random numbers");
-  file.add("Packing", "initial solid fraction", initial_solid_fraction, "of the grains placed at random",
-           {.lowest = 0, .highest = 1, .lowest_included = false});
-  file.add("Packing", "expected solid fraction", expected_solid_fraction, "after the compression; sets how many grains",
-           {.lowest = 0, .highest = 1, .lowest_included = false});
-  file.add("Packing", "tightened solid fraction", tightened_solid_fraction,
-           "of grains in a periodic cell, before it is compressed",
-           {.lowest = 0, .highest = 0.7, .lowest_included = false});
-  file.add("Packing", "friction", packing_friction, "between grains during the compression: less gives denser packings",
-           Range::non_negative().usual(0, 2));
-  declare_compression(file, compression);
-  file.add("Packing", "time step", packing_time_step, "during the compression [s]", Range::positive());
-  file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance",
-           Range::between(0, 0.1));
+  file.add("Packing", "sample", sample,
+           "sample.h5 of an earlier run's folder with the same grains, packing and edges; empty: one is made");
 
   continuum.declare(file);
   file.add("Continuum", "damping", continuum_damping, "mass-proportional [1/s]", Range::non_negative());
@@ -84,6 +66,43 @@ void TriaxialParameters::declare(ParameterFile &file)
   file.add("Loading", "time step", simulation.time_step, "[s]", Range::positive());
 
   output.declare(file, "grains and mesh are");
+}
+
+/// All but the edges of the specimen.
+void TriaxialParameters::declare_sample(ParameterFile &file)
+{
+  file.add(
+      "Model", "sides", sides,
+      "what bounds the specimen: smooth walls, or a cell that repeats itself in all directions, with the continuum "
+      "half-way up and an overlap at either face of it",
+      {{"walls", Sides::walls}, {"periodic", Sides::periodic}});
+  declare_distribution(file, "Grains", distribution);
+  declare_grains(file, simulation);
+  file.add("Packing", "seed", seed, "of all random numbers");
+  file.add("Packing", "initial solid fraction", initial_solid_fraction, "of the grains placed at random",
+           {.lowest = 0, .highest = 1, .lowest_included = false});
+  file.add("Packing", "expected solid fraction", expected_solid_fraction, "after the compression; sets how many grains",
+           {.lowest = 0, .highest = 1, .lowest_included = false});
+  file.add("Packing", "tightened solid fraction", tightened_solid_fraction,
+           "of grains in a periodic cell, before it is compressed",
+           {.lowest = 0, .highest = 0.7, .lowest_included = false});
+  file.add("Packing", "friction", packing_friction, "between grains during the compression: less gives denser packings",
+           Range::non_negative().usual(0, 2));
+  declare_compression(file, compression);
+  file.add("Packing", "time step", packing_time_step, "during the compression [s]", Range::positive());
+  file.add("Packing", "overlap tolerance", packing_overlap_tolerance, "see Grains/overlap tolerance",
+           Range::between(0, 0.1));
+}
+
+std::string TriaxialParameters::sample_text() const
+{
+  TriaxialParameters own = *this;
+  ParameterFile file("A packing for a triaxial test in two scales");
+  own.declare_sample(file);
+  std::string text = file.resolved_text() + "edges =";
+  for (const double length : edges())
+    text += " " + exact_text(length);
+  return text;
 }
 
 void TriaxialParameters::validate() const

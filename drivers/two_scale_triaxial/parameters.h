@@ -13,6 +13,8 @@
 #include "drivers/two_scale_triaxial/layout.h"
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace bergamo::driver
 {
@@ -54,6 +56,7 @@ struct TriaxialParameters
   double packing_time_step = 3e-7; ///< [s]
   double packing_overlap_tolerance = 5e-2;
   std::uint64_t seed = 1;
+  std::string sample; ///< file of the packing, of an earlier run; empty: one is made
   dem::CompressionParameters compression;
 
   ContinuumParameters continuum;
@@ -67,6 +70,9 @@ struct TriaxialParameters
 
   /// Binds every parameter to its name in the parameter file.
   void declare(ParameterFile &file);
+
+  /// What the packing depends on, as text: samples of the same one are alike.
+  std::string sample_text() const;
 
   /// Throws ConfigError for values that do not go together, before any work.
   void validate() const;
@@ -97,6 +103,9 @@ struct TriaxialParameters
   Vec3 edges() const { return {edge, edge, element_size() * layers.high()}; } ///< nominal, of the specimen [m]
   Layout layout(const dem::Box &specimen) const;
   GradingParameters grading() const;
+
+private:
+  void declare_sample(ParameterFile &file);
 };
 
 } // namespace bergamo::driver

@@ -2,7 +2,7 @@
 """Whether two scales give the stresses of grains alone, on the three strain paths of Wellmann's figure 6.4b and in an
 oedometer, all after an isotropic compression.
 
-For every packing, grains alone take the paths, and a Mohr-Coulomb continuum whose stiffness grows with the pressure and
+For every packing, which is made once, grains alone take the paths, and a Mohr-Coulomb continuum whose stiffness grows with the pressure and
 whose friction is mobilised by plastic strain is fitted to their stresses on all of them (least squares, then least
 sixth powers: nearly the least largest error). Then the continuum alone and the two-scale cube with the same grains take
 the same paths. The error of a principal stress is its largest difference from grains alone over the path, over the
@@ -24,7 +24,7 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
-from study_runs import STRESSES, argument_parser, differences, run, run_data
+from study_runs import STRESSES, argument_parser, differences, run, run_data, same_packing
 
 PATHS = {"unloading": {"Loading/path": "unloading"}, "constant volume": {"Loading/path": "constant volume"},
          "compression": {"Loading/path": "compression"},
@@ -114,15 +114,17 @@ def measure(program, folder, seeds, choice, common):
     rows, (models, paths) = {}, choice
     read = lambda model, path, seed: run_data.read_history(folder_of(folder, model, path, seed))
     with concurrent.futures.ThreadPoolExecutor(common.jobs) as pool:
-        jobs = [(seed, path) for seed in seeds for path in paths]
-        list(pool.map(lambda job: run(program, folder_of(folder, "grains alone", job[1], job[0]),
-                                      {**common.settings, "Model/kind": "grains", "Packing/seed": job[0],
-                                       **PATHS[job[1]]}), jobs))
+        alone = lambda seed, path, packing: run(program, folder_of(folder, "grains alone", path, seed),
+                                                {**common.settings, "Model/kind": "grains", "Packing/seed": seed,
+                                                 **PATHS[path], **packing})
+        list(pool.map(lambda seed: alone(seed, paths[0], {}), seeds))
+        packing = {seed: same_packing(folder_of(folder, "grains alone", paths[0], seed)) for seed in seeds}
+        list(pool.map(lambda job: alone(*job, packing[job[0]]), [(seed, path) for seed in seeds for path in paths[1:]]))
         continuum = fit_all(program, folder, seeds, paths, common)
         jobs = [(model, path, seed) for seed in seeds for path in paths for model in models]
         done = list(pool.map(lambda job: run(program, folder_of(folder, *job),
                                              {**common.settings, **continuum[job[2]], **MODELS[job[0]],
-                                              "Packing/seed": job[2], **PATHS[job[1]]}), jobs))
+                                              "Packing/seed": job[2], **PATHS[job[1]], **packing[job[2]]}), jobs))
     for (model, path, seed), is_done in zip(jobs, done):
         mine, alone = (read(name, path, seed) if is_done else None for name in (model, "grains alone"))
         rows.setdefault((model, path), []).append(differences(mine, alone, False) if is_done else None)

@@ -17,6 +17,11 @@ def run(program, folder, settings, files=("two_scale_triaxial.prm",)):
     return studies.run(program, folder, settings, [HERE / file for file in files])
 
 
+def same_packing(folder):
+    """Settings of a run over the grains of another one, that of FOLDER."""
+    return {"Packing/sample": folder / "sample.h5"}
+
+
 def differences(history, reference, from_start):
     """Differences of the three principal stresses over the path, over the largest of the reference [%]; none of a run
     that has ended early. @param from_start stresses count from their starts"""

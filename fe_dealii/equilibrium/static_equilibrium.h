@@ -13,7 +13,7 @@ struct EquilibriumParameters
   double tolerance = 1e-9;          ///< out-of-balance over acting forces (Euclidean norms), > 0
   int max_iterations = 40;          ///< of Newton's method, >= 1
   double duration = 0;              ///< prescribed dofs move by their velocity times this [s]; 0: they stay
-  std::size_t direct_limit = 10000; ///< largest number of dofs that is solved directly, see TangentSystem
+  std::size_t direct_limit = 25000; ///< largest number of dofs that is solved directly, see TangentSystem
 
   /// Throws ConfigError.
   void validate() const;

@@ -190,7 +190,9 @@ unsigned int TangentSystem::solve(const std::span<const double> residual, const 
     if (square == 0)
       ;
     else if (trilinos->is_direct)
-      dealii::TrilinosWrappers::SolverDirect(control).solve(trilinos->matrix, trilinos->left, trilinos->right);
+      dealii::TrilinosWrappers::SolverDirect(
+          control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Mumps"))
+          .solve(trilinos->matrix, trilinos->left, trilinos->right);
     else if (trilinos->is_symmetric)
       dealii::TrilinosWrappers::SolverCG(control).solve(trilinos->matrix, trilinos->left, trilinos->right,
                                                         trilinos->preconditioner);

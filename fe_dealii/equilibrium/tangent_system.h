@@ -9,7 +9,7 @@ namespace bergamo::fe
 
 class ExplicitBody;
 
-/// The linear system of a body's tangent stiffness; prescribed dofs do not move. Solved by Trilinos: directly (KLU)
+/// The linear system of a body's tangent stiffness; prescribed dofs do not move. Solved by Trilinos: directly (MUMPS)
 /// where it is small, else by conjugate gradients - GMRES where the flow is not associated - preconditioned with the
 /// smoothed aggregation (ML; Vaněk, Mandel, Brezina 1996) of the elastic operator and its six rigid motions.
 /// MPI has to be initialized (MpiSession), though a single process does the work.

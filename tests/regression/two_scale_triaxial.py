@@ -260,6 +260,35 @@ class Periodic(Case):
         self.assert_refused(refused("Model/sides=walls"), "Model/elements per height is 6", "Model/sides = periodic")
 
 
+class Sample(Case):
+    def test_same_bits(self):
+        """Two scales over the packing of a run of grains alone, with another friction: as if they had packed it."""
+        for name, cell in ("walls", []), ("periodic", Periodic.CELL):
+            with self.subTest(name):
+                grains, own, shared = (self.tmp / f"{name}-{run}" for run in ("grains", "own", "shared"))
+                for out, *options in ((grains, "--set", "Model/kind=grains", "--threads", "2"),
+                                      (own, "--set", "Grains/friction=0.3", "--threads", "1"),
+                                      (shared, "--set", "Grains/friction=0.3", "--threads", "2", "--set",
+                                       f"Packing/sample={grains / 'sample.h5'}")):
+                    result = self.run_driver(out, *cell, *options)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                for file in ("history.csv", "grains_0001.vtu", "stress_profile.csv"):
+                    self.assertEqual((own / file).read_bytes(), (shared / file).read_bytes(), file)
+                self.assertTrue((own / "sample.h5").exists())
+                self.assertFalse((shared / "sample.h5").exists())
+
+    def test_bad_input(self):
+        grains, out = self.tmp / "grains", self.tmp / "run"
+        self.assertEqual(self.run_driver(grains, "--set", "Model/kind=grains").returncode, 0)
+        sample = ["--set", f"Packing/sample={grains / 'sample.h5'}"]
+        refused = lambda *options: self.run_driver(out, *sample, *[x for o in options for x in ("--set", o)])
+        self.assert_refused(refused("Grains/density=2600"), "sample.h5", "density", "2600' here", "leave Packing/sample out")
+        self.assert_refused(refused("Model/edge=0.006"), "edges = 0.006 0.006 0.006", "leave Packing/sample out")
+        self.assert_refused(refused("Packing/sample=" + str(grains / "snapshot.h5")), "snapshot.h5", code=1)
+        self.assert_refused(refused("Packing/sample=none.h5"), "none.h5", code=1)
+        self.assertFalse(out.exists())
+
+
 class Restart(Case):
     def test_killed_run_goes_on_with_the_same_bits(self):
         """kill -9 in the loading, then --restart on another number of threads: the files are those of a run in one go."""

@@ -33,8 +33,8 @@ std::string first_difference(const std::string &stored, const std::string &prese
 
 } // namespace
 
-Snapshot::Snapshot(std::filesystem::path path, std::string kind, std::string parameters)
-    : path_(std::move(path)), kind_(std::move(kind)), parameters_(std::move(parameters))
+Snapshot::Snapshot(std::filesystem::path path, std::string kind, std::string parameters, std::string remedy)
+    : path_(std::move(path)), kind_(std::move(kind)), parameters_(std::move(parameters)), remedy_(std::move(remedy))
 {
 }
 
@@ -75,8 +75,7 @@ void Snapshot::read(const Visit &visit) const
   const std::string stored = archive.read_text("parameters");
   if (stored != parameters_)
     throw ConfigError("the snapshot " + path_.string() + " belongs to other parameters (" +
-                      first_difference(stored, parameters_) +
-                      "); restart with those of the run, or start anew in another folder");
+                      first_difference(stored, parameters_) + "); " + remedy_);
   StateVisitor visitor(archive);
   visit(visitor);
 }

@@ -19,8 +19,10 @@ class Snapshot
 {
 public:
   /// @param kind what the snapshot is of ("strip footing"); files of another kind are refused
-  /// @param parameters resolved text of all parameters
-  Snapshot(std::filesystem::path path, std::string kind, std::string parameters);
+  /// @param parameters resolved text of all parameters that it depends on
+  /// @param remedy what a user with others is told to do
+  Snapshot(std::filesystem::path path, std::string kind, std::string parameters,
+           std::string remedy = "restart with those of the run, or start anew in another folder");
 
   const std::filesystem::path &path() const { return path_; }
 
@@ -42,7 +44,7 @@ private:
   std::function<void()> collect(const Visit &visit) const;
 
   std::filesystem::path path_;
-  std::string kind_, parameters_;
+  std::string kind_, parameters_, remedy_;
   mutable std::future<void> behind_; // on its way to the disk; its end waits for that
 };
 
