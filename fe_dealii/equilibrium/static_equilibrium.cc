@@ -93,7 +93,6 @@ public:
 private:
   void follow_path()
   {
-    constexpr double least_increment = 1. / 256;
     double reached = 0, length = 1;
     while (reached < 1)
     {
@@ -104,8 +103,14 @@ private:
         length *= 2;
         ++report.n_increments;
       }
-      else if ((length = 0.5 * (next - reached)) < least_increment)
-        fail(failure, reached);
+      else if ((length = 0.5 * (next - reached)) < p.least_increment)
+      {
+        if (reached < p.least_share)
+          fail(failure, reached);
+        report.borne = reached;
+        bring_to(u_start, reached);
+        return;
+      }
     }
   }
 
@@ -145,11 +150,12 @@ private:
   /// @return why there is no equilibrium; nothing where there is, and then the body is in it
   std::string try_increment(const double from, const double to)
   {
-    constexpr int patience = 10; // iterations in which the balance has to gain
+    constexpr int patience = 10;   // iterations in which the balance has to gain
+    constexpr double lost = 100; // times as bad: near incompressibility it gets worse by less on its way
     u = u_start;
     for (std::size_t dof = 0; dof < n_dofs; ++dof)
       moved[dof] = (to - from) * motion[dof];
-    double error = bring_to(u, to), error_earlier = HUGE_VAL;
+    double error = bring_to(u, to), error_earlier = HUGE_VAL, worst_start = error;
     for (int iteration = 0; !(error <= p.tolerance) || (iteration == 0 && !is_zero(moved)); ++iteration)
     {
       const bool is_stuck = iteration % patience == 0 && iteration > 0 && error > 0.5 * error_earlier;
@@ -160,6 +166,10 @@ private:
       if (const std::string failure = iterate(iteration, to, error); !failure.empty())
         return failure;
       report.residual.push_back(error);
+      if (iteration == 0)
+        worst_start = std::max(worst_start, error);
+      else if (error > lost * worst_start)
+        return "as the iterations go astray";
     }
     increment_start.save();
     u_start = u;
@@ -277,6 +287,8 @@ void EquilibriumParameters::validate() const
   { require_parameter(holds, "static equilibrium", name, value, rule); };
   require(tolerance > 0 && tolerance < 1, "tolerance", tolerance, "choose it between 0 and 1");
   require(max_iterations >= 1, "max_iterations", max_iterations, "give at least 1");
+  require(least_increment > 0 && least_increment <= 1, "least_increment", least_increment, "choose it from 0 to 1");
+  require(least_share >= 0 && least_share <= 1, "least_share", least_share, "choose it from 0 to 1");
   require(std::isfinite(duration), "duration [s]", duration, "give a number");
 }
 
