@@ -12,6 +12,7 @@
 #include <ml_MultiLevelPreconditioner.h>
 
 #include <algorithm>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,29 @@ namespace
 {
 
 constexpr std::size_t block_elements = 128; // whose matrices are held at the same time
+
+/// Amesos prints what MUMPS says of a singular matrix, which here is an answer like others, and has no switch for it.
+class QuietErrors
+{
+public:
+  QuietErrors() : before_(std::cerr.rdstate()) { std::cerr.setstate(std::ios::failbit); }
+  ~QuietErrors() { std::cerr.clear(before_); }
+  QuietErrors(const QuietErrors &) = delete;
+  QuietErrors &operator=(const QuietErrors &) = delete;
+
+private:
+  std::ios::iostate before_;
+};
+
+/// Throws what deal.II throws.
+void solve_directly(const dealii::TrilinosWrappers::SparseMatrix &matrix, dealii::Vector<double> &left,
+                    const dealii::Vector<double> &right)
+{
+  using Direct = dealii::TrilinosWrappers::SolverDirect;
+  const QuietErrors quiet;
+  dealii::SolverControl control;
+  Direct(control, Direct::AdditionalData(false, "Amesos_Mumps")).solve(matrix, left, right);
+}
 
 } // namespace
 
@@ -190,9 +214,7 @@ unsigned int TangentSystem::solve(const std::span<const double> residual, const 
     if (square == 0)
       ;
     else if (trilinos->is_direct)
-      dealii::TrilinosWrappers::SolverDirect(
-          control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Mumps"))
-          .solve(trilinos->matrix, trilinos->left, trilinos->right);
+      solve_directly(trilinos->matrix, trilinos->left, trilinos->right);
     else if (trilinos->is_symmetric)
       dealii::TrilinosWrappers::SolverCG(control).solve(trilinos->matrix, trilinos->left, trilinos->right,
                                                         trilinos->preconditioner);

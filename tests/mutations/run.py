@@ -7,7 +7,7 @@ build is at hand, and takes each back. A mutation is caught where its tests fail
 compiler refuses it, stale where the file does not hold the text exactly once, and it survives where the tests pass.
 Every result goes to results.txt in the folder; what stands there is not run again without --again.
 
-Usage: run.py [--only PART] [--again] [--here] [--list] [--folder DIR] [--jobs N]
+Usage: run.py [--only PART] [--again] [--here] [--list] [--stale] [--folder DIR] [--jobs N]
 Ends with status 1 where a mutation survived or is stale.
 """
 
@@ -59,10 +59,14 @@ class Checkout:
             return False
 
 
+def is_stale(mutation, tree):
+    return (tree / mutation.file).read_text().count(mutation.old) != 1
+
+
 def outcome_of(mutation, checkout, sound):
     path = checkout.tree / mutation.file
     text = path.read_text()
-    if text.count(mutation.old) != 1:
+    if is_stale(mutation, checkout.tree):
         return "stale"
     if (mutation.target, mutation.tests) not in sound:
         if not checkout.compile(mutation.target) or not checkout.passes(mutation.target, mutation.tests):
@@ -88,6 +92,7 @@ def main():
     parser.add_argument("--again", action="store_true", help="those that have a result, too")
     parser.add_argument("--here", action="store_true", help="in the working tree, which must not change meanwhile")
     parser.add_argument("--list", action="store_true", help="show them and do nothing")
+    parser.add_argument("--stale", action="store_true", help="show those that are and do nothing else")
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "mutations", metavar="DIR")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="compilers at a time")
     arguments = parser.parse_args()
@@ -97,6 +102,11 @@ def main():
         for mutation in chosen:
             print(mutation)
         return 0
+    if arguments.stale:
+        stale = [mutation for mutation in chosen if is_stale(mutation, ROOT)]
+        for mutation in stale:
+            print(mutation)
+        return 1 if stale else 0
     arguments.folder.mkdir(parents=True, exist_ok=True)
     results = arguments.folder / "results.txt"
     known = {} if arguments.again else read_results(results)
