@@ -509,7 +509,7 @@ MUTATIONS = [
     *in_folder("drivers/two_scale_triaxial", "two_scale_triaxial",
                ("packing_stage.cc", "  grains.compute_forces(); // of a step", "  // of a step", "Sample.test_same_bits"),
                ("parameters.cc", "own.declare_sample(file);", ";", "Sample.test_bad_input"),
-               ("main.cc", "    grains.integrate();\n", "", "Sample.test_same_bits")),
+               ("triaxial_run.cc", "    grains.integrate();\n", "", "Sample.test_same_bits")),
     *in_folder("coupling/adapter", "two_scale_triaxial",
                ("model_energy.cc", "g.wall_work + g.cell_work", "g.wall_work", "Periodic")),
     *in_folder("dem", "verification_dem",
