@@ -107,9 +107,12 @@ struct ParameterFile::Implementation
   std::string suggestion(const std::string &path) const
   {
     const std::string name = path.substr(path.rfind('/') + 1);
-    for (const ParameterEntry &entry : entries) // right name, wrong section
-      if (entry.name == name)
-        return "; did you mean '" + entry.path + "'?";
+    const ParameterEntry *nearest = nullptr; // right name, wrong section
+    for (const ParameterEntry &entry : entries)
+      if (entry.name == name && (!nearest || name_distance(path, entry.path) < name_distance(path, nearest->path)))
+        nearest = &entry;
+    if (nearest)
+      return "; did you mean '" + nearest->path + "'?";
     const std::string near = did_you_mean(path, paths);
     return near.empty() ? remedy() : near;
   }

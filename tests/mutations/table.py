@@ -693,6 +693,8 @@ MUTATIONS = [
                 "Results.test_pile"),
                ("settled_sand.h", "bottom_wall = 4;", "bottom_wall = 5;", "Results.test_pile"),
                ("settled_sand.cc", "sand.walls.size()) - 1;", "sand.walls.size()) - 2;", "Results.test_pile")),
+    *in_folder("drivers/common/run", "unit_driver",
+               ("run.cc", "loop_.begins_stage() ? 0 : loop_.step();", "loop_.step();", "each stage of a run*")),
     *in_folder("drivers/common/run", "brachistochrone",
                ("run.cc", "loop_.steps_here(), stage.n_particles", "loop_.step(), stage.n_particles",
                 "Results.test_files")),

@@ -1,5 +1,6 @@
 #include "drivers/common/history.h"
 #include "drivers/common/interrupt.h"
+#include "drivers/common/run/run.h"
 #include "drivers/common/run/run_loop.h"
 #include "drivers/common/run/table.h"
 #include "tests/temporary_folder.h"
@@ -218,4 +219,26 @@ TEST_CASE("who stops a run at its last step gets its end, and a stop before it a
   clear_interrupt();
   CHECK(loop.run(stepping, {stop_at(2)}));
   CHECK(n_snapshots == 1);
+}
+
+TEST_CASE("each stage of a run begins with nothing done")
+{
+  const TemporaryFolder folder;
+  CommandLine words;
+  words.output = folder / "run";
+  words.quiet = true;
+  Run run(words, {"two stages", "set steps = 6"});
+  run.keep([](StateVisitor &) {});
+  run.open();
+  for (const std::int64_t n_steps : {6, 8})
+  {
+    Stage stage = run.even_stage("stage", n_steps, 0.1);
+    stage.compute = [] {};
+    std::vector<double> fractions{stage.fraction()};
+    REQUIRE(run.advance(stage, {{every_steps(1), [&] { fractions.push_back(stage.fraction()); }}}));
+    REQUIRE(fractions.size() == static_cast<std::size_t>(n_steps) + 2);
+    CHECK(fractions.front() == 0.); // what the time that is left is told by
+    CHECK(fractions[2] == 1. / static_cast<double>(n_steps));
+    CHECK(fractions.back() == 1.);
+  }
 }

@@ -58,7 +58,11 @@ Stage Run::even_stage(const std::string &name, const std::int64_t n_steps, const
   stage.name = name;
   stage.time = [this, time_step] { return static_cast<double>(loop_.step()) * time_step; };
   stage.is_last = [this, n_steps] { return loop_.step() >= n_steps; };
-  stage.fraction = [this, n_steps] { return static_cast<double>(loop_.step()) / static_cast<double>(n_steps); };
+  stage.fraction = [this, n_steps]
+  {
+    const std::int64_t done = loop_.begins_stage() ? 0 : loop_.step(); // of this stage, not of the one before
+    return static_cast<double>(done) / static_cast<double>(n_steps);
+  };
   return stage;
 }
 
