@@ -130,6 +130,9 @@ class Bodies(Refused, FolderCase):
         simulation.set_plane_velocity(5, (0, 0, -1))
         simulation.step(10)
         self.assertAlmostEqual(simulation.planes[5].point[2], 3 - 2e-4, delta=1e-13)
+        moving = engine.Simulation(parameters(), loose(1), [engine.Plane((0, 0, 3), (0, 0, -1), velocity=(0, 0, -1))])
+        moving.step(10)
+        self.assertAlmostEqual(moving.planes[0].point[2], 3 - 2e-4, delta=1e-13)
         simulation.remove_plane(0)
         self.assertEqual(len(simulation.planes), 5)
         for call in (simulation.remove_plane, lambda k: simulation.set_plane_velocity(k, (0, 0, 0)), simulation.plane_force):

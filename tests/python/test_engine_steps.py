@@ -234,6 +234,9 @@ class Threads(unittest.TestCase):
         self.addCleanup(engine.set_threads, before)
         engine.set_threads(2)
         self.assertEqual(engine.threads(), 2)
+        engine.set_threads(3)
+        falling(10).step(2)
+        self.assertGreaterEqual(len(os.listdir("/proc/self/task")), 3)
         with self.assertRaisesRegex(engine.ConfigError, "number of threads is 0: it must be at least 1"):
             engine.set_threads(0)
         self.assertIn(engine.pack_width(), (2, 4, 8))
