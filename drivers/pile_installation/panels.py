@@ -8,13 +8,19 @@ FRACTIONS = (0.55, 0.7)  # of solid, that colours tell apart
 
 
 def frame(axes, ground, top):
-    """What all panels share: equal scales, the pile, the height of the picture [mm]."""
+    """What all panels share: equal scales, the pile, the height of the picture [mm]. Of elements that go on far beyond
+    the grains those beside them are shown."""
     from matplotlib.patches import Polygon
     axes.figure.set_layout_engine("compressed")  # for axes of equal scales
     axes.add_patch(Polygon(ground.pile_outline(), facecolor="#D9D9D9", edgecolor="#222222", linewidth=1.2, zorder=3))
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.set_ylim(top=top)
+    grains = np.concatenate(ground.outlines)
+    reach = np.abs(grains[:, 0]).max()
+    if ground.elements and np.abs(np.concatenate(ground.elements.outlines)[:, 0]).max() > 2.5 * reach:
+        axes.set_xlim(-1.5 * reach, 1.5 * reach)
+        axes.set_ylim(bottom=grains[:, 1].min() - 0.5 * reach)
     axes.grid(False)
     axes.set_ylabel("z in mm")
 
