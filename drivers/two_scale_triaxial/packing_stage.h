@@ -30,7 +30,8 @@ struct PackingStage
 PackingStage begin_packing(const TriaxialParameters &parameters);
 
 /// A packing that other runs may start from, moved on to the step after its last. Reading throws ConfigError for one of
-/// other parameters, naming the first that differs, and RunError for a file that is missing, damaged or of another kind.
+/// other parameters, naming the first that differs, and RunError for a file that is missing, damaged or of another
+/// kind.
 /// @{
 void write_sample(const std::filesystem::path &file, const dem::Simulation &grains,
                   const TriaxialParameters &parameters);

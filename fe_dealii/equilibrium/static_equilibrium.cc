@@ -150,7 +150,7 @@ private:
   /// @return why there is no equilibrium; nothing where there is, and then the body is in it
   std::string try_increment(const double from, const double to)
   {
-    constexpr int patience = 10;   // iterations in which the balance has to gain
+    constexpr int patience = 10; // iterations in which the balance has to gain
     constexpr double lost = 100; // times as bad: near incompressibility it gets worse by less on its way
     u = u_start;
     for (std::size_t dof = 0; dof < n_dofs; ++dof)
@@ -287,7 +287,8 @@ void EquilibriumParameters::validate() const
   { require_parameter(holds, "static equilibrium", name, value, rule); };
   require(tolerance > 0 && tolerance < 1, "tolerance", tolerance, "choose it between 0 and 1");
   require(max_iterations >= 1, "max_iterations", max_iterations, "give at least 1");
-  require(least_increment > 0 && least_increment <= 1, "least_increment", least_increment, "choose it from 0 to 1");
+  require(least_increment > 0 && least_increment <= 1, "least_increment", least_increment,
+          "choose it above 0, and 1 at most");
   require(least_share >= 0 && least_share <= 1, "least_share", least_share, "choose it from 0 to 1");
   require(std::isfinite(duration), "duration [s]", duration, "give a number");
 }

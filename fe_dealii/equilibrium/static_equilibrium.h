@@ -10,12 +10,12 @@ class ExplicitBody;
 
 struct EquilibriumParameters
 {
-  double tolerance = 1e-9;          ///< out-of-balance over acting forces (Euclidean norms), > 0
-  int max_iterations = 40;          ///< of Newton's method, >= 1
-  double duration = 0;              ///< prescribed dofs move by their velocity times this [s]; 0: they stay
+  double tolerance = 1e-9;           ///< out-of-balance over acting forces (Euclidean norms), > 0
+  int max_iterations = 40;           ///< of Newton's method, >= 1
+  double duration = 0;               ///< prescribed dofs move by their velocity times this [s]; 0: they stay
   double least_increment = 1. / 256; ///< of the path; where none as short has an equilibrium, the path ends
   double least_share = 1;            ///< of the path that must be borne, 0 to 1
-  std::size_t direct_limit = 25000; ///< largest number of dofs that is solved directly, see TangentSystem
+  std::size_t direct_limit = 25000;  ///< largest number of dofs that is solved directly, see TangentSystem
 
   /// Throws ConfigError.
   void validate() const;

@@ -457,3 +457,16 @@ TEST_CASE("motions that nothing holds are named before any work", "[fe]")
   equilibrium.tolerance = 0;
   CHECK_THROWS_WITH(find_equilibrium(body, equilibrium), Catch::Contains("tolerance"));
 }
+
+TEST_CASE("what a static start cannot be asked for is refused by name", "[fe]")
+{
+  ExplicitBody body = box({{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}, {});
+  hold(body);
+  using Catch::Contains;
+  CHECK_THROWS_WITH(find_equilibrium(body, {.tolerance = 1}),
+                    Contains("tolerance = 1 ") && Contains("between 0 and 1"));
+  CHECK_THROWS_WITH(find_equilibrium(body, {.max_iterations = 0}), Contains("max_iterations = 0"));
+  CHECK_THROWS_WITH(find_equilibrium(body, {.least_increment = 0}),
+                    Contains("least_increment = 0") && Contains("above 0"));
+  CHECK_THROWS_WITH(find_equilibrium(body, {.least_share = 2}), Contains("least_share = 2") && Contains("from 0 to 1"));
+}
