@@ -32,10 +32,6 @@ MembraneTriaxialRun::MembraneTriaxialRun(const MembraneTriaxialParameters &p, co
 
 void MembraneTriaxialRun::visit(StateVisitor &visit)
 {
-  double spent = core_seconds();
-  visit("core_seconds", spent);
-  if (visit.is_reading())
-    earlier_core_seconds = spent;
   visit("part", part);
   if (part == Part::filling)
     return;
@@ -209,12 +205,6 @@ Stage MembraneTriaxialRun::stage_of(const std::string &name, const std::int64_t 
   return stage;
 }
 
-double MembraneTriaxialRun::core_seconds() const
-{
-  const RunFigures here = run.figures(1);
-  return earlier_core_seconds + here.wall_time_s * static_cast<double>(here.threads);
-}
-
 Summary MembraneTriaxialRun::summary() const
 {
   const dem::Simulation &grains = cell->sample();
@@ -239,7 +229,6 @@ Summary MembraneTriaxialRun::summary() const
   summary.set("share_of_searches", shares.searches);
   summary.set("share_of_elements", shares.elements);
   summary.set("share_of_coupling", shares.coupling);
-  summary.set("core_hours", core_seconds() / 3600., "h");
   return summary;
 }
 

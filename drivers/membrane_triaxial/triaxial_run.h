@@ -42,7 +42,6 @@ private:
   Stage stage_of(const std::string &name, std::int64_t n_steps); // of the test
   void begin(Part next);
   void look_at_load(double time);
-  double core_seconds() const; // over all restarts
   Summary summary() const;
 
   const MembraneTriaxialParameters &parameters;
@@ -58,7 +57,6 @@ private:
   TestFigures figures;
   PictureSeries pictures;
   StableStepWatch stable_step{"Test/time step"};
-  double earlier_core_seconds = 0.;
 };
 
 } // namespace bergamo::driver

@@ -7,10 +7,11 @@ sizes cut out of it and elements beyond. What differs is the largest difference 
 way, as single grains that slip make most of the difference from moment to moment; and the work of the pile. Grains are
 chaotic: how far grains alone differ from themselves with steps of another length is what no model can be nearer than. So
 the differences are given, too, of the way before these two part by a twentieth of the largest resistance: what is left
-there is the model's.
+there is the model's. Beside it stand tip and shaft by themselves, and how the ground about the pile differs at each
+millimetre of its way: motion, solid fraction and pressure.
 
-Writes FOLDER/domains.csv and FOLDER/plots/domains.png and prints the table. Runs that are finished are not run again.
-Further settings NAME=VALUE of the driver hold for all runs.
+Writes FOLDER/domains.csv, FOLDER/fields.csv and FOLDER/plots/domains.png and prints the tables. Runs that are finished
+are not run again. Further settings NAME=VALUE of the driver hold for all runs.
 """
 
 import csv
@@ -24,11 +25,13 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "common" / "plots"))
 import run_data
 import studies
+from field_differences import COLUMNS, all_differences
 
 BLOCKS = {"small": (0.016, 0.0125), "middle": (0.022, 0.0125), "large": (0.03, 0.0145)}  # width and depth [m]
 ANOTHER_STEP = 5.5e-6  # beside 6e-6 of the parameter file [s]
 PARTED = 0.05  # of the largest resistance
 SMOOTHED_OVER = 0.1  # of the way
+PICTURES = 6  # at each millimetre
 
 
 def smoothed(history):
@@ -49,6 +52,12 @@ def differences(history, alone, until=np.inf):
         difference, scale = here(value(history)) - value(alone)[way <= until], np.abs(value(alone)[way <= until]).max()
         found += [100 * np.abs(difference).max() / scale, 100 * np.sqrt((difference**2).mean()) / scale]
     return found + [100 * (here(history["pile_work_J"])[-1] / alone["pile_work_J"][way <= until][-1] - 1)]
+
+
+def parts(history, alone):
+    """Mean of tip and shaft over the way beside those of grains alone, over the mean of the head's [%]."""
+    head = alone["head_resistance_N"].mean()
+    return [100 * (history[name].mean() - alone[name].mean()) / head for name in ("tip_resistance_N", "shaft_resistance_N")]
 
 
 def parting(again, alone):
@@ -83,7 +92,7 @@ def measure(program, folder, seeds, common):
         for kind, is_done in are_done.items():
             summary = run_data.read_summary(folders[kind])
             if not (is_done and are_done["grains alone"] and are_done["grains another step"]):
-                rows.append([kind, seed, *[""] * 16])
+                rows.append([kind, seed, *[""] * 18])
                 continue
             history, alone, again = (run_data.read_history(folders[name])
                                      for name in (kind, "grains alone", "grains another step"))
@@ -92,7 +101,7 @@ def measure(program, folder, seeds, common):
                      for value in some or [np.nan] * 5]
             time_file = folders[kind] / "processor_time.txt"
             rows.append([kind, seed, summary["particles"], summary.get("elements", 0),
-                         *(f"{value:.2f}" for value in found), f"{1e3 * until:.2f}", f"{summary['wall_time_s']:.1f}",
+                         *(f"{value:.2f}" for value in found + parts(history, alone)), f"{1e3 * until:.2f}", f"{summary['wall_time_s']:.1f}",
                          time_file.read_text().strip() if time_file.exists() else "",
                          f"{summary['energy_residual']:.2g}"])
     return rows
@@ -105,8 +114,20 @@ def write_table(rows, path):
                         "smoothed_largest_percent", "smoothed_mean_percent", "work_percent",
                         *(f"{name}_percent_before_parting" for name in ("largest", "mean", "smoothed_largest",
                                                                         "smoothed_mean", "work")),
-                        "parting_mm", "wall_time_s", "processor_time_s", "energy_residual"])
+                        "tip_percent", "shaft_percent", "parting_mm", "wall_time_s", "processor_time_s", "energy_residual"])
         table.writerows(rows)
+
+
+def write_fields(rows, path):
+    """@param rows of the runs, as measure() gives them"""
+    folder_of = lambda kind, seed: path.parent / f"{kind}-{seed}".replace(" ", "-")
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["ground", "seed", *COLUMNS])
+        for kind, seed, n_grains, *_ in rows:
+            if kind != "grains alone" and n_grains:
+                for row in all_differences(folder_of(kind, seed), folder_of("grains alone", seed)):
+                    table.writerow([kind, seed, *(f"{value:.4g}" for value in row)])
 
 
 def draw(folder, seed):
@@ -140,8 +161,11 @@ def arguments_of(description):
 
 def main():
     program, folder, seeds, common = arguments_of(__doc__)
-    write_table(measure(program, folder, seeds, common), folder / "domains.csv")
-    print((folder / "domains.csv").read_text(), end="")
+    rows = measure(program, folder, seeds, {"Output/pictures": PICTURES, **common})
+    write_table(rows, folder / "domains.csv")
+    write_fields(rows, folder / "fields.csv")
+    for name in ("domains.csv", "fields.csv"):
+        print((folder / name).read_text(), end="")
     draw(folder, seeds[0])
 
 

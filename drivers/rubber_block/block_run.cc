@@ -25,10 +25,6 @@ BlockRun::BlockRun(const RubberBlockParameters &p, const CommandLine &command_li
 
 void BlockRun::visit(StateVisitor &visit)
 {
-  double spent = core_seconds();
-  visit("core_seconds", spent);
-  if (visit.is_reading())
-    earlier_core_seconds = spent;
   settled.visit(visit); // no height: the sand still settles
   const bool is_settling = settled.height == 0.;
   const dem::Simulation *grains = pull ? &pull->sand() : sand.get();
@@ -115,12 +111,6 @@ void BlockRun::sample(History &history, History &pressures)
   pressures.append(strips.row());
 }
 
-double BlockRun::core_seconds() const
-{
-  const RunFigures here = run.figures(1);
-  return earlier_core_seconds + here.wall_time_s * static_cast<double>(here.threads);
-}
-
 Summary BlockRun::summary() const
 {
   const dem::Simulation &grains = pull->sand();
@@ -143,7 +133,6 @@ Summary BlockRun::summary() const
   summary.set("share_of_grains", shares.grains);
   summary.set("share_of_elements", shares.elements);
   summary.set("share_of_coupling", shares.coupling);
-  summary.set("core_hours", core_seconds() / 3600., "h");
   summary.set("dissertation_core_hours", dissertation_core_hours, "h");
   return summary;
 }

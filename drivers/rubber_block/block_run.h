@@ -27,7 +27,6 @@ private:
   bool settle();
   bool pull_block();
   void sample(History &history, History &pressures);
-  double core_seconds() const; // over all restarts
   void draw(PictureSeries &series, bool of_grains);
   Summary summary() const;
 
@@ -41,7 +40,6 @@ private:
   PictureSeries pictures, grain_pictures;
   EnergyResidual residual;
   StableStepWatch stable_step{"Pull/time step"};
-  double earlier_core_seconds = 0.;
   const Table table = now.table(pull);
   const Table strips = pressure_table(now.time, pull, parameters.block.n_along);
 };

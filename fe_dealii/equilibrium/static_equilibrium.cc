@@ -108,6 +108,7 @@ private:
         if (reached < p.least_share)
           fail(failure, reached);
         report.borne = reached;
+        report.left = bring_to(u_start, 1);
         bring_to(u_start, reached);
         return;
       }

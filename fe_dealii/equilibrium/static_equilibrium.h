@@ -25,6 +25,7 @@ struct EquilibriumReport
 {
   std::vector<double> residual;         ///< out-of-balance over acting forces, at the start and after each iteration
   double borne = 1;                     ///< share of the path that ends in equilibrium
+  double left = 0;                      ///< out-of-balance over acting forces, of what is not borne
   int n_increments = 0;                 ///< in which the path was followed; 0 where there was nothing to do
   unsigned int n_linear_iterations = 0; ///< of all systems; 0 if they were solved directly
 };

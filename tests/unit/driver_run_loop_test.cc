@@ -170,6 +170,40 @@ TEST_CASE("snapshots that hold up the run come less often, so that they take a f
   CHECK(in_snapshots / held_up == (held_up < 1 ? Approx(49).margin(1) : Approx(4).margin(1)));
 }
 
+TEST_CASE("a run knows what all of it and the steps of a stage cost, over restarts, whatever else it does meanwhile")
+{
+  TemporaryFolder folder;
+  Snapshot snapshot(folder / "snapshot.h5", "costs", "");
+  double spent = 0; // by a process [s]
+  std::int64_t last_step = 4;
+  const auto run = [&](RunLoop &loop, const std::int64_t end)
+  {
+    return loop.run({.time = [&] { return static_cast<double>(loop.step()); },
+                     .is_last = [&, end] { return loop.step() == end; },
+                     .compute = [&] { spent += 2; },
+                     .move = [&] { spent += 1; }},
+                    {{every_steps(2), [&] { spent += 100; }}});
+  };
+  RunLoop before({.interval = 1e9, .write = [] {}}, wall_clock, RunCost([&] { return spent; }));
+  REQUIRE(run(before, 6)); // 7 forces, 6 motions, 4 readings
+  CHECK(before.cost().stepping_seconds() == 20);
+  CHECK(before.cost().core_seconds() == 420);
+  REQUIRE(run(before, last_step));
+  CHECK(before.cost().stepping_seconds() == 14); // of its own stage
+  CHECK(before.cost().core_seconds() == 734);
+  spent += 50; // between stages
+  snapshot.write([&](StateVisitor &v) { before.visit(v); });
+
+  spent = 7; // another process, which has read much
+  RunLoop after({.interval = 1e9, .write = [] {}}, wall_clock, RunCost([&] { return spent; }));
+  snapshot.read([&](StateVisitor &v) { after.visit(v); });
+  CHECK(after.cost().stepping_seconds() == 14);
+  CHECK(after.cost().core_seconds() == 791);
+  REQUIRE(run(after, last_step + 2)); // goes on with the step that had not moved
+  CHECK(after.cost().stepping_seconds() == 14 + 3 * 2 + 2);
+  CHECK(after.cost().core_seconds() == 791 + 8 + 200);
+}
+
 TEST_CASE("the interval between snapshots runs on from stage to stage")
 {
   double clock = 0;

@@ -70,7 +70,7 @@ public:
   /// Goes on to the end of a stage, shows the progress. @return false if the user stopped it, after a snapshot
   bool advance(const Stage &stage, std::vector<Action> actions);
 
-  /// Figures of the wall clock, and those of all its steps by this process. @param n_particles moved in a step
+  /// Figures of the clocks, and those of all its steps by this process. @param n_particles moved in a step
   RunFigures figures(std::int64_t n_particles) const;
 
   /// Writes and shows the summary, draws the pictures, as report_run(). @return done

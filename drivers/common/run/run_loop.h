@@ -1,5 +1,6 @@
 #pragma once
 
+#include "drivers/common/run/run_cost.h"
 #include "drivers/common/run/snapshot.h"
 #include "drivers/common/run/trigger.h"
 
@@ -45,7 +46,7 @@ struct SnapshotPlan
 class RunLoop
 {
 public:
-  explicit RunLoop(SnapshotPlan plan, WallClock clock = wall_clock);
+  explicit RunLoop(SnapshotPlan plan, WallClock clock = wall_clock, RunCost cost = RunCost());
 
   /// Goes on to the end of the stage: from its start, or from the step of a snapshot that has been read.
   /// @return false if the user stopped it (see interrupted()), after a snapshot
@@ -60,6 +61,7 @@ public:
   std::int64_t step() const { return step_; }             ///< of the stage
   double last_time() const { return last_time_; }         ///< of the last step whose actions are done [s]
   std::int64_t steps_here() const { return steps_here_; } ///< done by this process, over all stages
+  const RunCost &cost() const { return cost_; }           ///< of the run; of steps without actions and snapshots
 
 private:
   bool snapshot_is_due() const;
@@ -67,6 +69,7 @@ private:
 
   SnapshotPlan plan_;
   WallClock clock_;
+  RunCost cost_;
   double last_snapshot_, held_up_ = 0; // when, and by how much it held up the run [s]
   std::int64_t step_ = 0, steps_here_ = 0;
   double last_time_ = -std::numeric_limits<double>::infinity();
