@@ -28,7 +28,7 @@ def measure(program, folder, common):
         settings = {"Model/block width": width, "Model/beyond sides": (GROUND - width) / 2,
                     "Sand/tiles": round(width / TILE), "Sand/box": f"{width}, 0.0161, 0.1545",
                     "Pile/time": 6e-4, "Pile/start time": 3e-4, "Output/pictures": 1, "Output/samples": 1}
-        files = [HERE / f"pile_installation_{file}.prm" for file in ("thesis", "coarse")]
+        files = [HERE / f"pile_installation_{file}.prm" for file in ("thesis", "soft", "coarse")]
         if not studies.run(program, folder / name, {**settings, **common}, files):
             raise SystemExit(1)
         summary = run_data.read_summary(folder / name)

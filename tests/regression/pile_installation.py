@@ -297,14 +297,14 @@ class BadInput(Case):
                             "the pile has come to the end", "Model/block depth", status=1, writes=True)
 
     def test_parameter_files(self):
-        """Every parameter file of the driver is read and valid, those that say "After X.prm" after it: what is refused is
+        """Every parameter file of the driver is read and valid, those that say "After X.prm Y.prm:" after them: refused is
         only the missing snapshot."""
         files = sorted(FOLDER.glob("*.prm"))
         self.assertGreaterEqual(len(files), 4)
         for prm in files:
             with self.subTest(prm.name):
-                before = re.match(r"# After (\S+\.prm):", prm.read_text())
-                given = [FOLDER / before[1], prm] if before else [prm]
+                before = re.match(r"# After ((?:\S+\.prm )*\S+\.prm):", prm.read_text())
+                given = [*(FOLDER / name for name in before[1].split()), prm] if before else [prm]
                 result = self.run_driver(self.tmp / "none", (), "--restart", *map(str, given[1:]), file=given[0])
                 self.assertEqual(result.returncode, 2, result.stderr)
                 self.assertIn("snapshot", result.stderr)
