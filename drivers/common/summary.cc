@@ -69,7 +69,7 @@ void Summary::set(const RunFigures &run)
 {
   set("wall_time_s", run.wall_time_s, "s");
   set("core_hours", run.core_hours, "h");
-  set("core_seconds_per_step", run.core_seconds_per_step, "s");
+  set("core_time_per_step_s", run.core_time_per_step_s, "s");
   set("steps", run.steps);
   set("particles", run.particles);
   set("threads", run.threads);

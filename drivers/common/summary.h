@@ -12,9 +12,9 @@ namespace bergamo::driver
 /// The figures that every run reports.
 struct RunFigures
 {
-  double wall_time_s = 0;           ///< of this process, since the last restart
-  double core_hours = 0;            ///< of all cores together and over all restarts
-  double core_seconds_per_step = 0; ///< the same of a step of the last stage, without what is written and measured
+  double wall_time_s = 0;          ///< of this process, since the last restart
+  double core_hours = 0;           ///< of all cores together and over all restarts
+  double core_time_per_step_s = 0; ///< the same of a step of the last stage, without what is written and measured
   std::int64_t steps = 0;
   std::int64_t particles = 0;
   std::int64_t threads = 0;

@@ -32,7 +32,7 @@ def measure(program, folder, common):
         if not studies.run(program, folder / name, {**settings, **common}, files):
             raise SystemExit(1)
         summary = run_data.read_summary(folder / name)
-        rows.append([width, summary["particles"], summary["elements"], summary["core_seconds_per_step"]])
+        rows.append([width, summary["particles"], summary["elements"], summary["core_time_per_step_s"]])
     return rows
 
 
@@ -41,7 +41,7 @@ def main():
     rows = measure(program, folder, common)
     with open(folder / "gain.csv", "w", newline="") as file:
         table = csv.writer(file)
-        table.writerow(["block_width_m", "grains", "elements", "core_seconds_per_step"])
+        table.writerow(["block_width_m", "grains", "elements", "core_time_per_step_s"])
         table.writerows(rows)
     print((folder / "gain.csv").read_text(), end="")
     _, grains, _, seconds = np.array(rows).T

@@ -59,7 +59,7 @@ TEST_CASE("a summary keeps its order, its exact numbers and its names")
   CHECK(json["converged"] == true);
   CHECK(json["axis"][1].get<double>() == 0.1 + 0.2);
   CHECK(json["gap"].is_null());
-  for (const char *name : {"wall_time_s", "core_hours", "core_seconds_per_step", "steps", "particles", "threads",
+  for (const char *name : {"wall_time_s", "core_hours", "core_time_per_step_s", "steps", "particles", "threads",
                            "particle_steps_per_second", "time_step_s", "stable_time_step_s", "energy_residual",
                            "undecided_contacts", "max_overlap_over_radius"})
     CHECK(json.contains(name));

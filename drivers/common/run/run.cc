@@ -85,7 +85,7 @@ RunFigures Run::figures(const std::int64_t n_particles) const
   RunFigures figures;
   figures.wall_time_s = wall_clock() - start_;
   figures.core_hours = loop_.cost().core_seconds() / 3600.;
-  figures.core_seconds_per_step =
+  figures.core_time_per_step_s =
       loop_.cost().stepping_seconds() / static_cast<double>(std::max<std::int64_t>(1, loop_.step()));
   figures.threads = omp_get_max_threads();
   figures.particles = n_particles;
