@@ -15,7 +15,6 @@ are not run again. Further settings NAME=VALUE of the driver hold for all runs.
 """
 
 import csv
-import resource
 import sys
 from pathlib import Path
 
@@ -67,15 +66,9 @@ def parting(again, alone):
     return alone["way_m"][max(0, np.argmax(apart) - 1)] if apart.any() else np.inf
 
 
-def timed_run(program, folder, settings):
-    """Runs the driver and notes its processor time; false where it fails."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    is_new = not run_data.read_summary(folder)
-    is_done = studies.run(program, folder, settings, [HERE / "pile_installation_check.prm"])
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if is_new and is_done:
-        (folder / "processor_time.txt").write_text(f"{after.ru_utime - before.ru_utime:.1f}\n")
-    return is_done
+def run_check(program, folder, settings):
+    """Runs the driver on its small ground; false where it fails."""
+    return studies.run(program, folder, settings, [HERE / "pile_installation_check.prm"])
 
 
 def measure(program, folder, seeds, common):
@@ -87,7 +80,7 @@ def measure(program, folder, seeds, common):
         kinds |= {f"{name} block": {"Model/kind": "two-scale", "Model/block width": width, "Model/block depth": depth}
                   for name, (width, depth) in BLOCKS.items()}
         folders = {kind: folder / f"{kind}-{seed}".replace(" ", "-") for kind in kinds}
-        are_done = {kind: timed_run(program, folders[kind], {**common, **settings, "Sand/seed": seed})
+        are_done = {kind: run_check(program, folders[kind], {**common, **settings, "Sand/seed": seed})
                     for kind, settings in kinds.items()}
         for kind, is_done in are_done.items():
             summary = run_data.read_summary(folders[kind])
@@ -99,10 +92,9 @@ def measure(program, folder, seeds, common):
             until = parting(again, alone)
             found = [value for some in (differences(history, alone), differences(history, alone, until))
                      for value in some or [np.nan] * 5]
-            time_file = folders[kind] / "processor_time.txt"
             rows.append([kind, seed, summary["particles"], summary.get("elements", 0),
-                         *(f"{value:.2f}" for value in found + parts(history, alone)), f"{1e3 * until:.2f}", f"{summary['wall_time_s']:.1f}",
-                         time_file.read_text().strip() if time_file.exists() else "",
+                         *(f"{value:.2f}" for value in found + parts(history, alone)), f"{1e3 * until:.2f}",
+                         f"{summary['wall_time_s']:.1f}", f"{3600 * summary['core_hours']:.1f}",
                          f"{summary['energy_residual']:.2g}"])
     return rows
 

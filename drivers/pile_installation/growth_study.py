@@ -13,7 +13,7 @@ import csv
 import statistics
 
 import numpy as np
-from domain_study import ANOTHER_STEP, arguments_of, differences, parting, run_data, smoothed, studies, timed_run
+from domain_study import ANOTHER_STEP, arguments_of, differences, parting, run_data, smoothed, studies, run_check
 
 DEEP = {"Model/block width": 0.022, "Model/block depth": 0.0125}
 KINDS = {"deep": DEEP, "deep, another step": {**DEEP, "Pile/time step": ANOTHER_STEP},
@@ -30,7 +30,7 @@ def measure(program, folder, seeds, common):
     """Rows of kind, seed, growths, account of the energy, and what differs from the deep block of the seed."""
     rows = []
     for seed in seeds:
-        are_done = {kind: timed_run(program, folder_of(folder, kind, seed), {**common, **settings, "Sand/seed": seed})
+        are_done = {kind: run_check(program, folder_of(folder, kind, seed), {**common, **settings, "Sand/seed": seed})
                     for kind, settings in KINDS.items()}
         if not all(are_done.values()):
             rows += [[kind, seed, *[""] * 13] for kind in KINDS]

@@ -3,6 +3,7 @@
 #include "drivers/common/run/state_visitor.h"
 
 #include <functional>
+#include <utility>
 
 namespace bergamo::driver
 {
