@@ -132,7 +132,7 @@ void ArlequinCoupling::follow(const double time_step)
     renew();
 }
 
-bool ArlequinCoupling::must_be_renewed() const
+bool ArlequinCoupling::must_be_renewed()
 {
   return parameters_.renewal > 0. && (state_.largest_motion > farthest_ || stray_.may_have_come(grains_.simulation()));
 }

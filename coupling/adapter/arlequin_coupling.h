@@ -125,7 +125,7 @@ private:
   void start();
   void look_at_overlap();
   void find_particles();
-  bool must_be_renewed() const;
+  bool must_be_renewed();
   template <class AddForce>
   void compute_penalty(const AddForce &add_force, std::span<double> fe_force);
   void give_transfer();

@@ -3,6 +3,7 @@
 #include "coupling/adapter/dealii_adapter.h"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_set>
 
 namespace bergamo::coupling
@@ -22,13 +23,18 @@ StrayGrains::StrayGrains(const dem::Particles &particles, const std::span<const 
     reach_.push_back(std::max(farthest, distance - farthest));
 }
 
-bool StrayGrains::may_have_come(const dem::Simulation &grains) const
+bool StrayGrains::may_have_come(const dem::Simulation &grains)
 {
+  const dem::Particles &p = grains.particles;
+  // What returns to a periodic cell goes by a period in no time.
+  if (p.largest_motion < look_at_motion_ && !p.cell.is_periodic())
+    return false;
+  double least = std::numeric_limits<double>::infinity(); // way that is left [m]
   for (std::size_t k = 0; k < id_.size(); ++k)
-    if (grains.has(id_[k]) &&
-        (grains.particles.position[grains.index_of(id_[k])] - place_[k]).squaredNorm() > reach_[k] * reach_[k])
-      return true;
-  return false;
+    if (grains.has(id_[k]))
+      least = std::min(least, reach_[k] - (p.position[grains.index_of(id_[k])] - place_[k]).norm());
+  look_at_motion_ = p.largest_motion + 0.9 * least; // far above the rounding of a sum over steps
+  return least < 0.;
 }
 
 } // namespace bergamo::coupling

@@ -22,8 +22,10 @@ public:
   StrayGrains(const dem::Particles &particles, std::span<const std::int64_t> coupled, const fe::ExplicitBody &body,
               double farthest);
 
-  /// Whether any has gone so far that it may have come into the elements. @param grains the same ones
-  bool may_have_come(const dem::Simulation &grains) const;
+  /// Whether any has gone so far that it may have come into the elements. Looks at the grains only where
+  /// Particles::largest_motion lets one have gone that far, so who moves grains by hand adds it there.
+  /// @param grains the same ones
+  bool may_have_come(const dem::Simulation &grains);
 
   /// All of it, by name; see dem/core/state.h.
   template <class Self, class Visit>
@@ -38,6 +40,8 @@ private:
   std::vector<std::int64_t> id_;
   std::vector<Vec3> place_;   // [m]
   std::vector<double> reach_; // [m]
+  // Particles::largest_motion below which none can have come [m]; no part of the state, as a look finds it anew.
+  double look_at_motion_ = 0.;
 };
 
 } // namespace bergamo::coupling

@@ -455,6 +455,7 @@ MUTATIONS = [
         ("cell_stress.cc", "1. - weight_of_grains[node]", "1.", "through an overlap*"),
         ("model_energy.cc", "e.weight_work = g.exchanged;", "", "grains pass*"),
         ("stray_grains.cc", "std::max(farthest, distance - farthest)", "farthest", "an overlap stays*"),
+        ("stray_grains.cc", "0.9 * least", "1e9 * least", "an overlap stays*"),
         ("surface_contact.cc", "2. * body_->largest_square", "0. * body_->largest_square", "the stable step of a contact*"),
         ("touched_faces.cc", "+= value * force;", "-= value * force;", "grains and a free body of elements*"),
         ("touched_faces.cc", "+= of_corners.share[k] * value;", "+= 0.1 * of_corners.share[k] * value;",

@@ -149,6 +149,7 @@ TEST_CASE("an overlap stays where grains and elements go together, and where gra
   {
     for (Vec3 &x : grains.position)
       x += way;
+    grains.largest_motion += way.norm();
     for (std::size_t node = 0; node < model.body()->n_nodes(); ++node)
       for (int d = 0; d < 3; ++d)
         model.body()->displacement()[3 * node + d] += way[d];
@@ -175,8 +176,10 @@ TEST_CASE("an overlap stays where grains and elements go together, and where gra
   const double distance = grains.position[far][2] - edge;
   REQUIRE(distance > 1.5 * diameter);
   grains.position[far][2] -= 0.5 * distance;
+  grains.largest_motion += 0.5 * distance;
   CHECK(renewals_of(2) == 0);
   grains.position[far][2] = edge + 0.1 * diameter;
+  grains.largest_motion += 0.5 * distance;
   CHECK(renewals_of(2) == 1);
 }
 
