@@ -267,6 +267,7 @@ void ArlequinCoupling::limit_edge()
   if (parameters_.edge.strength == 0.)
     return;
   HeldEdge &edge = penalty_.edge();
+  edge.strength.resize(edge.size());
   for (std::size_t k = 0; k < edge.size(); ++k)
     edge.strength[k] =
         edge.dead_load[k].norm() + parameters_.edge.strength * transfer_.force[edge.particles()[k]].norm();

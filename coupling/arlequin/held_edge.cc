@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <unordered_map>
 
@@ -51,7 +50,6 @@ HeldEdge::HeldEdge(const Overlap &overlap, const std::span<const double> node_we
   dead_load.assign(size(), Eigen::Vector3d::Zero());
   shift_.assign(size(), Eigen::Vector3d::Zero());
   stretch_.assign(size(), Eigen::Vector3d::Zero());
-  strength.assign(size(), std::numeric_limits<double>::infinity());
 }
 
 double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_displacement,
@@ -59,6 +57,9 @@ double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_disp
                             const std::span<Eigen::Vector3d> particle_force, const std::span<double> fe_force,
                             const Loads loads)
 {
+  if (dead_load.size() != size() || (!strength.empty() && strength.size() != size()))
+    reject("the held edge of an overlap has ", size(), " grains, ", dead_load.size(), " dead loads and ",
+           strength.size(), " strengths; give each grain one of both, or none a strength");
   energy_.assign(size(), 0.);
   double sum = 0.;
   for (std::size_t begin = 0, end = 0; begin < size(); begin = end)
@@ -101,6 +102,8 @@ double HeldEdge::add_forces(const std::span<const Eigen::Vector3d> particle_disp
 /// force is that of its end, so the loss is of first order in the step.
 void HeldEdge::slip(const std::size_t k, Eigen::Vector3d &stretch)
 {
+  if (strength.empty())
+    return;
   const double pull = stiffness_[k] * stretch.norm();
   if (!(pull > strength[k]))
     return;
@@ -174,7 +177,6 @@ void HeldEdge::copy(const std::size_t from, const HeldEdge &other, const std::si
   stiffness_[to] = other.stiffness_[from];
   shift_[to] = other.shift_[from];
   dead_load[to] = other.dead_load[from];
-  strength[to] = other.strength[from];
   stretch_[to] = other.stretch_[from];
   place_[to] = other.place_[from];
   energy_[to] = other.energy_[from];
@@ -192,7 +194,7 @@ void HeldEdge::remove(const std::vector<bool> &is_gone)
   stiffness_.resize(kept);
   shift_.resize(kept);
   dead_load.resize(kept);
-  strength.resize(kept);
+  strength.clear();
   stretch_.resize(kept);
   place_.resize(kept);
   energy_.resize(kept);

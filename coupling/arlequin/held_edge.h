@@ -45,7 +45,8 @@ public:
   /// The dead load of a held particle [N], in the order of particles(); zero at first.
   std::vector<Eigen::Vector3d> dead_load;
 
-  /// Largest force of a spring [N], beyond which it slips, in the order of particles(); infinite at first.
+  /// Largest force of a spring [N], beyond which it slips, in the order of particles(). Empty where none slips: at
+  /// first, and when the particles have become others. No part of the state.
   std::vector<double> strength;
 
   /// What slips of the springs have taken from both models so far [J].
@@ -59,6 +60,7 @@ public:
 
   /// Its forces on both models, as PenaltyCoupling::compute() has them, particles in the order of particles() [N]:
   /// `particle_force` is overwritten, `fe_force` is added to. @return their energy [J]
+  /// @throws ConfigError for loads or strengths of another number of particles
   double add_forces(std::span<const Eigen::Vector3d> particle_displacement, std::span<const double> fe_displacement,
                     std::span<Eigen::Vector3d> particle_force, std::span<double> fe_force, Loads loads);
 

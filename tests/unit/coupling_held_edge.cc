@@ -185,7 +185,7 @@ TEST_CASE("held edge: a spring slips at its strength, holds on from there, and b
   for (std::size_t k = 0; k < edge.size(); ++k)
   {
     spring[k] = force[k] - edge.dead_load[k];
-    edge.strength[k] = 2. * spring[k].norm();
+    edge.strength.push_back(2. * spring[k].norm());
   }
   energy_at(1.9 * unit);
   CHECK(edge.slip_loss() == 0.);
@@ -231,6 +231,19 @@ TEST_CASE("the stable step of a coupling knows the stiffness of its edge and not
 
 TEST_CASE("an edge that makes no sense is refused")
 {
+  const Overlap overlap = test::block(1, 12);
+  const LinearWeights weights(overlap, 1);
+  HeldEdge edge(overlap, weights.node, weights.particle, {.depth = 2.});
+  std::vector<Eigen::Vector3d> force(edge.size());
+  std::vector<double> fe(test::n_dofs(overlap), 0.), unused(fe.size(), 0.);
+  const auto add_forces = [&] { edge.add_forces(force, fe, force, unused, HeldEdge::Loads::all); };
+  edge.strength.assign(edge.size() - 1, 1.);
+  CHECK_THROWS_WITH(add_forces(), Catch::Contains(std::to_string(edge.size() - 1) + " strengths"));
+  edge.strength.clear();
+  CHECK_NOTHROW(add_forces());
+  edge.dead_load.pop_back();
+  CHECK_THROWS_WITH(add_forces(), Catch::Contains(std::to_string(edge.size() - 1) + " dead loads"));
+
   CHECK_THROWS_WITH(EdgeParameters{.depth = -1.}.validate(), Catch::Contains("depth") && Catch::Contains("-1"));
   CHECK_THROWS_WITH(EdgeParameters{.stiffness = 0.}.validate(),
                     Catch::Contains("stiffness") && Catch::Contains("must be positive"));
