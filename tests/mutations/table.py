@@ -446,6 +446,7 @@ MUTATIONS = [
         ("arlequin_coupling.cc", "(2. * force + more_force).dot", "more_force.dot", "under pressure*"),
         ("arlequin_coupling.cc", "transfer_work_ += half_step * power_on_nodes(transfer_);",
          "transfer_work_ += 0. * half_step * power_on_nodes(transfer_);", "under pressure*"),
+        ("arlequin_coupling.cc", "edge.strength.resize(edge.size());", "", "an overlap that was made anew*"),
         ("arlequin_coupling.cc", "transfer.force[k] = transfer_.force[old->second];", "", "grains pass*"),
         ("body_mover.cc", "sum[node] - old_weight[node] + nodal_weight[node]", "nodal_weight[node] + 0. * old_weight[node]",
          "weights of one overlap*"),
