@@ -34,6 +34,8 @@ public:
     visit("id", self.id_);
     visit("place", self.place_);
     visit("reach", self.reach_);
+    if constexpr (Visit::is_reading)
+      self.look_at_motion_ = 0.;
   }
 
 private:

@@ -13,7 +13,7 @@ import csv
 import statistics
 
 import numpy as np
-from domain_study import ANOTHER_STEP, arguments_of, differences, parting, run_data, smoothed, studies, run_check
+from domain_study import ANOTHER_STEP, arguments_of, differences, parting, run_check, run_data, smoothed, studies
 
 DEEP = {"Model/block width": 0.022, "Model/block depth": 0.0125}
 KINDS = {"deep": DEEP, "deep, another step": {**DEEP, "Pile/time step": ANOTHER_STEP},

@@ -213,8 +213,8 @@ TEST_CASE("an overlap that was made anew goes on with the same bits after a rest
 
   ArchiveReader reader(folder / "snapshot.h5", "overlap");
   auto grains = dem::read_simulation(reader, model.grains()->parameters());
-  coupling::CouplingParameters fewer_held =
-      soft_and_renewed(); // grains have moved, so the edge made now is another one
+  // Grains have moved, so the edge that is made at a restart can be another one.
+  coupling::CouplingParameters fewer_held = soft_and_renewed();
   fewer_held.edge.depth *= 0.5;
   TwoScaleModel again = test::join_below(std::move(grains), box, fewer_held, reference);
   hold_still(*again.body());
