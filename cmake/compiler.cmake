@@ -27,6 +27,13 @@ endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_DEV "-O2 -g")
 
+# Beside deal.II's 200 libraries it links in a third of the time of the usual linker.
+include(CheckLinkerFlag)
+check_linker_flag(CXX -fuse-ld=gold BERGAMO_LINKS_BY_GOLD)
+if(BERGAMO_LINKS_BY_GOLD)
+  add_link_options(-fuse-ld=gold)
+endif()
+
 set(BERGAMO_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
 if(BERGAMO_SANITIZE)
   add_compile_options(-fsanitize=${BERGAMO_SANITIZE} -fno-omit-frame-pointer)
