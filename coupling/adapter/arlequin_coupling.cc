@@ -20,7 +20,9 @@ PenaltyCoupling set_up(GrainsMover &grains, SolidMover &body, const CouplingPara
                        const OverlapPlace &place)
 {
   parameters.validate();
-  const Overlap overlap = overlap_of(grains.simulation().particles, body, place.reference_by_id, place.nodal_weight);
+  const dem::Particles &p = grains.simulation().particles;
+  const Overlap overlap =
+      overlap_of(p, body, place.reference_by_id, place.nodal_weight, parameters.surface_reach * mean_diameter(p));
   const OverlapWeights weights(overlap, place.nodal_weight, parameters.least_weight);
   grains.set_weights(overlap.particle_id, weights.particle);
   body.add_weights(place.nodal_weight);
@@ -50,6 +52,10 @@ void CouplingParameters::validate() const
   if (!(renewal >= 0.) || !std::isfinite(renewal))
     reject("the renewal of an overlap is due after ", renewal,
            " diameters; it must be 0, for never, or positive: a tenth is small beside grains and elements");
+  if (!(surface_reach >= 0.) || !std::isfinite(surface_reach))
+    reject(
+        "an overlap reaches ", surface_reach,
+        " diameters above a free surface; it must be 0, for its elements alone, or positive: 3 take all that settles");
   edge.validate();
 }
 
@@ -145,11 +151,11 @@ void ArlequinCoupling::renew()
   transfer_work_ += 0.5 * drifted_ * power_of(transfer_);     // until here; what apply() books anew is taken off below
   const dem::Simulation &grains = grains_.simulation();
   const dem::Particles &p = grains.particles;
-  const std::vector<Vec3> present = reference_places(body_.solid(), p.position);
+  const std::vector<Vec3> present = reference_places(body_.solid(), p.position, reach());
   for (std::size_t i = 0; i < p.size(); ++i)
     reference_by_id_[p.id[i]] = present[i];
 
-  Overlap overlap = overlap_of(p, body_, reference_by_id_, nodal_weight_);
+  Overlap overlap = overlap_of(p, body_, reference_by_id_, nodal_weight_, reach());
   const std::vector<std::int64_t> old_id = penalty_.overlap().particle_id;
   std::unordered_map<std::int64_t, std::size_t> old_place;
   for (std::size_t k = 0; k < old_id.size(); ++k)
@@ -193,6 +199,12 @@ void ArlequinCoupling::move_to(const OverlapPlace &place)
   has_just_moved_ = true;
 }
 
+/// Of the overlap beside its elements [m].
+double ArlequinCoupling::reach() const
+{
+  return parameters_.surface_reach * mean_diameter(grains_.simulation().particles);
+}
+
 /// Notes when it has to be made anew.
 void ArlequinCoupling::look_at_overlap()
 {
@@ -201,7 +213,7 @@ void ArlequinCoupling::look_at_overlap()
     return;
   const Overlap &overlap = penalty_.overlap();
   farthest_ = parameters_.renewal * overlap.mean_diameter();
-  stray_ = StrayGrains(grains_.simulation().particles, overlap.particle_id, body_.solid(), farthest_);
+  stray_ = StrayGrains(grains_.simulation().particles, overlap.particle_id, body_.solid(), {farthest_, reach()});
 }
 
 /// Brings the transfer from the last step to this one, once, and puts it on the grains; the opposite becomes that of

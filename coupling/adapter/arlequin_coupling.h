@@ -27,6 +27,10 @@ struct CouplingParameters
   /// diameters of its grains; 0: never.
   double renewal = 0.;
 
+  /// Up to which grains above the mesh, where an overlap comes to a free surface, belong to the nearest place of it, in
+  /// mean diameters; 0: those in elements alone. What settles lies up to two and a half diameters above its level.
+  double surface_reach = 0.;
+
   /// Throws ConfigError for a value out of its range; the penalty and the least weight are looked at where they are
   /// used.
   void validate() const;
@@ -123,6 +127,7 @@ private:
   };
 
   void start();
+  double reach() const;
   void look_at_overlap();
   void find_particles();
   bool must_be_renewed();

@@ -64,11 +64,41 @@ public:
     std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
     for (const auto &[box, element] : near)
     {
-      Found found{cells_[element], element, {}};
-      if (find_in_cell(found.cell, x, found.unit))
-        return found;
+      const auto unit = unit_place(cells_[element], x);
+      if (unit && dealii::GeometryInfo<3>::is_inside_unit_cell(*unit))
+        return Found{cells_[element], element, *unit};
     }
     return {};
+  }
+
+  /// The nearest place of those elements whose boxes are not further than `reach`, if it is not further itself [m]:
+  /// along the local coordinates, so of a box exactly.
+  std::optional<Found> find_near(const Vec3 &place, const double reach) const
+  {
+    if (const auto inside = find(place); inside || reach <= 0.)
+      return inside;
+    const dealii::Point<3> x(place[0], place[1], place[2]);
+    const dealii::Tensor<1, 3> corner = dealii::Point<3>(reach, reach, reach);
+    std::vector<std::pair<dealii::BoundingBox<3>, unsigned int>> near;
+    tree_.query(boost::geometry::index::intersects(dealii::BoundingBox<3>(std::pair(x - corner, x + corner))),
+                std::back_inserter(near));
+    std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
+    std::optional<Found> nearest;
+    double least = reach;
+    for (const auto &[box, element] : near)
+    {
+      const auto unit = unit_place(cells_[element], x);
+      if (!unit)
+        continue;
+      const dealii::Point<3> inside = dealii::GeometryInfo<3>::project_to_unit_cell(*unit);
+      const double distance =
+          x.distance(dealii::StaticMappingQ1<3>::mapping.transform_unit_to_real_cell(cells_[element], inside));
+      if (distance > least || (nearest && distance == least))
+        continue;
+      least = distance;
+      nearest = Found{cells_[element], element, inside};
+    }
+    return nearest;
   }
 
   /// From a place to the nearest box about an element [m].
@@ -81,36 +111,55 @@ public:
   }
 
 private:
-  static bool find_in_cell(const Cell &cell, const dealii::Point<3> &x, dealii::Point<3> &unit)
+  static std::optional<dealii::Point<3>> unit_place(const Cell &cell, const dealii::Point<3> &x)
   {
     try
     {
-      unit = dealii::StaticMappingQ1<3>::mapping.transform_real_to_unit_cell(cell, x);
+      return dealii::StaticMappingQ1<3>::mapping.transform_real_to_unit_cell(cell, x);
     }
     catch (const dealii::Mapping<3>::ExcTransformationFailed &)
     {
-      return false;
+      return {};
     }
-    return dealii::GeometryInfo<3>::is_inside_unit_cell(unit);
   }
 
   std::vector<Cell> cells_;
   dealii::RTree<std::pair<dealii::BoundingBox<3>, unsigned int>> tree_;
 };
 
-/// A particle in an element.
+const dealii::FE_Q<3> &trilinear()
+{
+  static const dealii::FE_Q<3> element(1);
+  return element;
+}
+
+/// A particle in an element, or beside it.
 struct Placed
 {
   std::size_t particle;
   ElementSearch::Found at;
 };
 
-/// The particles that lie in elements, element by element, and in one in the order in which they came.
-std::vector<Placed> placed_by_element(const ElementSearch &search, const std::span<const Vec3> position)
+/// The particles that lie in elements, element by element, and in one in the order in which they came; and those that
+/// lie in none, at the nearest place, where that is not further than `reach` [m] and weighs less than 1.
+std::vector<Placed> placed_by_element(const fe::ExplicitBody &body, const std::span<const Vec3> position,
+                                      const std::span<const double> nodal_weight, const double reach)
 {
+  const ElementSearch search(body, nodal_weight);
+  const auto weight_at = [&](const ElementSearch::Found &at)
+  {
+    const auto nodes = body.element_nodes(at.element);
+    double weight = 0.;
+    for (unsigned int v = 0; v < 8; ++v)
+      weight += trilinear().shape_value(v, at.unit) * nodal_weight[nodes[v]];
+    return weight;
+  };
+  constexpr double whole = 1. - 1e-9;
   std::vector<Placed> placed;
   for (std::size_t i = 0; i < position.size(); ++i)
-    if (const auto at = search.find(position[i]))
+    if (const auto inside = search.find(position[i]))
+      placed.push_back({i, *inside});
+    else if (const auto at = search.find_near(position[i], reach); at && weight_at(*at) < whole)
       placed.push_back({i, *at});
   std::stable_sort(placed.begin(), placed.end(),
                    [](const Placed &a, const Placed &b) { return a.at.element < b.at.element; });
@@ -118,13 +167,13 @@ std::vector<Placed> placed_by_element(const ElementSearch &search, const std::sp
 }
 
 /// Gradients of the shape functions in space [1/m].
-std::array<Vec3, 8> gradients_at(const dealii::FE_Q<3> &trilinear, const Cell &cell, const dealii::Point<3> &unit)
+std::array<Vec3, 8> gradients_at(const Cell &cell, const dealii::Point<3> &unit)
 {
   std::array<Vec3, 8> local;
   Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero(); // dx / d unit
   for (unsigned int v = 0; v < 8; ++v)
   {
-    const auto gradient = trilinear.shape_grad(v, unit);
+    const auto gradient = trilinear().shape_grad(v, unit);
     const auto &x = cell->vertex(v);
     local[v] = {gradient[0], gradient[1], gradient[2]};
     jacobian += Vec3(x[0], x[1], x[2]) * local[v].transpose();
@@ -138,11 +187,10 @@ std::array<Vec3, 8> gradients_at(const dealii::FE_Q<3> &trilinear, const Cell &c
 /// Of a nodal field, three components a node.
 Vec3 value_in(const fe::ExplicitBody &body, const ElementSearch::Found &at, const std::span<const double> field)
 {
-  static const dealii::FE_Q<3> trilinear(1);
   const auto nodes = body.element_nodes(at.element);
   Vec3 value = Vec3::Zero();
   for (unsigned int v = 0; v < 8; ++v)
-    value += trilinear.shape_value(v, at.unit) * Eigen::Map<const Vec3>(&field[3 * nodes[v]]);
+    value += trilinear().shape_value(v, at.unit) * Eigen::Map<const Vec3>(&field[3 * nodes[v]]);
   return value;
 }
 
@@ -150,7 +198,7 @@ Vec3 value_in(const fe::ExplicitBody &body, const ElementSearch::Found &at, cons
 
 Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::int64_t> id,
                      const std::span<const Vec3> position, const std::span<const double> volume,
-                     const std::span<const double> nodal_weight)
+                     const std::span<const double> nodal_weight, const double reach)
 {
   if (nodal_weight.size() != body.n_nodes())
     reject("grains overlap a continuum of ", body.n_nodes(), " nodes, but ", nodal_weight.size(),
@@ -173,21 +221,21 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
     return place->second;
   };
 
-  const dealii::FE_Q<3> trilinear(1);
-  for (const auto &[i, at] : placed_by_element(ElementSearch(body, nodal_weight), position))
+  for (const auto &[i, at] : placed_by_element(body, position, nodal_weight, reach))
   {
     const auto nodes = body.element_nodes(at.element);
-    const std::array<Vec3, 8> gradients = gradients_at(trilinear, at.cell, at.unit);
+    const std::array<Vec3, 8> gradients = gradients_at(at.cell, at.unit);
     for (unsigned int v = 0; v < 8; ++v)
     {
       overlap.shape_gradient.push_back(gradients[v]);
       overlap.shape_node.push_back(place_of(nodes[v]));
-      overlap.shape_value.push_back(std::clamp(trilinear.shape_value(v, at.unit), 0., 1.));
+      overlap.shape_value.push_back(std::clamp(trilinear().shape_value(v, at.unit), 0., 1.));
     }
     overlap.shape_offset.push_back(overlap.shape_node.size());
     overlap.particle_id.push_back(id[i]);
     overlap.particle_volume.push_back(volume[i]);
-    overlap.reference_position.push_back(position[i]);
+    const auto place = dealii::StaticMappingQ1<3>::mapping.transform_unit_to_real_cell(at.cell, at.unit);
+    overlap.reference_position.emplace_back(place[0], place[1], place[2]);
   }
   if (overlap.nodes.empty())
     throw ConfigError("grains and continuum do not overlap: no grain's centre lies in an element; let the "
@@ -197,7 +245,8 @@ Overlap make_overlap(const fe::ExplicitBody &body, const std::span<const std::in
   return overlap;
 }
 
-std::vector<Vec3> reference_places(const fe::ExplicitBody &body, const std::span<const Vec3> position)
+std::vector<Vec3> reference_places(const fe::ExplicitBody &body, const std::span<const Vec3> position,
+                                   const double reach)
 {
   constexpr int n_iterations = 3; // each gains a factor of the displacement's gradient
   const ElementSearch search(body);
@@ -206,7 +255,7 @@ std::vector<Vec3> reference_places(const fe::ExplicitBody &body, const std::span
   for (std::size_t i = 0; i < places.size(); ++i)
     for (int k = 0; k < n_iterations; ++k)
     {
-      const auto found = search.find(places[i]);
+      const auto found = search.find_near(places[i], reach);
       if (!found)
         break;
       places[i] = position[i] - value_in(body, *found, u);

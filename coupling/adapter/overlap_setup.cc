@@ -4,13 +4,23 @@
 #include "coupling/arlequin/weight.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace bergamo::coupling
 {
 
+double mean_diameter(const dem::Particles &particles)
+{
+  double sum = 0.;
+  for (const double volume : particles.volume)
+    sum += std::cbrt(6. * volume / std::numbers::pi);
+  return sum / static_cast<double>(particles.size());
+}
+
 Overlap overlap_of(const dem::Particles &p, const SolidMover &body, const std::span<const Vec3> reference_by_id,
-                   const std::span<const double> nodal_weight)
+                   const std::span<const double> nodal_weight, const double reach)
 {
   std::vector<std::int32_t> order(p.size());
   std::iota(order.begin(), order.end(), 0);
@@ -24,7 +34,7 @@ Overlap overlap_of(const dem::Particles &p, const SolidMover &body, const std::s
     reference.push_back(reference_by_id[p.id[i]]);
     volume.push_back(p.volume[i]);
   }
-  return make_overlap(body.solid(), id, reference, volume, nodal_weight);
+  return make_overlap(body.solid(), id, reference, volume, nodal_weight, reach);
 }
 
 OverlapWeights::OverlapWeights(const Overlap &overlap, const std::span<const double> nodal_weight,

@@ -10,7 +10,7 @@ namespace bergamo::coupling
 {
 
 StrayGrains::StrayGrains(const dem::Particles &particles, const std::span<const std::int64_t> coupled,
-                         const fe::ExplicitBody &body, const double farthest)
+                         const fe::ExplicitBody &body, const Bounds &bounds)
 {
   const std::unordered_set<std::int64_t> is_coupled(coupled.begin(), coupled.end());
   for (std::size_t i = 0; i < particles.size(); ++i)
@@ -20,7 +20,7 @@ StrayGrains::StrayGrains(const dem::Particles &particles, const std::span<const 
       place_.push_back(particles.position[i]);
     }
   for (const double distance : distances_to(body, place_))
-    reach_.push_back(std::max(farthest, distance - farthest));
+    reach_.push_back(std::max(bounds.farthest, distance - bounds.reach - bounds.farthest));
 }
 
 bool StrayGrains::may_have_come(const dem::Simulation &grains)

@@ -16,11 +16,17 @@ namespace bergamo::coupling
 class StrayGrains
 {
 public:
+  struct Bounds
+  {
+    double farthest; ///< motion that counts [m]
+    double reach;    ///< of the overlap beside its elements, see make_overlap() [m]
+  };
+
   StrayGrains() = default;
 
-  /// At the present places. @param coupled ids of the grains of the overlap; @param farthest motion that counts [m]
+  /// At the present places. @param coupled ids of the grains of the overlap
   StrayGrains(const dem::Particles &particles, std::span<const std::int64_t> coupled, const fe::ExplicitBody &body,
-              double farthest);
+              const Bounds &bounds);
 
   /// Whether any has gone so far that it may have come into the elements. Looks at the grains only where
   /// Particles::largest_motion lets one have gone that far, so who moves grains by hand adds it there.

@@ -25,6 +25,11 @@ void declare_coupling(ParameterFile &file, coupling::CouplingParameters &couplin
            "of the overlap with the grains that are there by then: after this motion of a grain relative to the "
            "continuum, in mean diameters; 0 for never",
            Range::non_negative());
+  file.add(
+      "Coupling", "surface reach", coupling.surface_reach,
+      "of an overlap that comes to a free surface: grains up to here above the mesh belong to it, in mean diameters; "
+      "0: those in elements alone, others weigh 1 at once",
+      Range::between(0, 10));
   file.add("Coupling", "least weight", coupling.least_weight, "lower bound of the grains' weights in the overlap",
            {.lowest = 0, .highest = 1, .lowest_included = false});
 }

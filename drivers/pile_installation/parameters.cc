@@ -37,6 +37,7 @@ InstallationParameters::InstallationParameters()
   coupling.edge.stiffness = 2e12;
   coupling.transfer_time = 1e-3;
   coupling.renewal = 0.1;
+  coupling.surface_reach = 3.;
   output.n_samples = 100;
 }
 

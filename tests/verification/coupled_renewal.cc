@@ -23,12 +23,13 @@ namespace
 constexpr double speed = 0.1; // of the grains along x [m/s]
 
 /// Renewed after a twentieth of a grain, with springs so soft that they hardly hold the grains back.
-coupling::CouplingParameters soft_and_renewed()
+coupling::CouplingParameters soft_and_renewed(const double surface_reach = 0.)
 {
   coupling::CouplingParameters join;
   join.penalty = 1e10;
   join.edge.stiffness = 1e10;
   join.renewal = 0.05;
+  join.surface_reach = surface_reach;
   return join;
 }
 
@@ -41,9 +42,9 @@ void hold_still(fe::ExplicitBody &body)
 }
 
 /// The pressed cube, whose grains and walls set out along x past a continuum that rests.
-TwoScaleModel make_passing_model()
+TwoScaleModel make_passing_model(const double surface_reach = 0.)
 {
-  TwoScaleModel model = test::make_pressed_model(soft_and_renewed());
+  TwoScaleModel model = test::make_pressed_model(soft_and_renewed(surface_reach));
   hold_still(*model.body());
   for (Vec3 &v : model.grains()->particles.velocity)
     v += Vec3(speed, 0., 0.);
@@ -185,7 +186,8 @@ TEST_CASE("an overlap stays where grains and elements go together, and where gra
 
 TEST_CASE("an overlap that was made anew goes on with the same bits after a restart")
 {
-  TwoScaleModel model = make_passing_model();
+  const double surface_reach = GENERATE(0., 3.);
+  TwoScaleModel model = make_passing_model(surface_reach);
   const dem::Box box = cube_of(model);
   test::run(model, 3000);
   REQUIRE(model.coupling()->n_renewals() > 1);
@@ -214,7 +216,7 @@ TEST_CASE("an overlap that was made anew goes on with the same bits after a rest
   ArchiveReader reader(folder / "snapshot.h5", "overlap");
   auto grains = dem::read_simulation(reader, model.grains()->parameters());
   // Grains have moved, so the edge that is made at a restart can be another one.
-  coupling::CouplingParameters fewer_held = soft_and_renewed();
+  coupling::CouplingParameters fewer_held = soft_and_renewed(surface_reach);
   fewer_held.edge.depth *= 0.5;
   TwoScaleModel again = test::join_below(std::move(grains), box, fewer_held, reference);
   hold_still(*again.body());
