@@ -21,8 +21,8 @@ PenaltyCoupling set_up(GrainsMover &grains, SolidMover &body, const CouplingPara
 {
   parameters.validate();
   const dem::Particles &p = grains.simulation().particles;
-  const Overlap overlap =
-      overlap_of(p, body, place.reference_by_id, place.nodal_weight, parameters.surface_reach * mean_diameter(p));
+  const Overlap overlap = overlap_of(p, body, place.reference_by_id, place.nodal_weight,
+                                     parameters.surface_reach * mean_diameter(p.volume));
   const OverlapWeights weights(overlap, place.nodal_weight, parameters.least_weight);
   grains.set_weights(overlap.particle_id, weights.particle);
   body.add_weights(place.nodal_weight);
@@ -202,7 +202,7 @@ void ArlequinCoupling::move_to(const OverlapPlace &place)
 /// Of the overlap beside its elements [m].
 double ArlequinCoupling::reach() const
 {
-  return parameters_.surface_reach * mean_diameter(grains_.simulation().particles);
+  return parameters_.surface_reach * mean_diameter(grains_.simulation().particles.volume);
 }
 
 /// Notes when it has to be made anew.

@@ -59,10 +59,7 @@ public:
   std::optional<Found> find(const Vec3 &place) const
   {
     const dealii::Point<3> x(place[0], place[1], place[2]);
-    std::vector<std::pair<dealii::BoundingBox<3>, unsigned int>> near;
-    tree_.query(boost::geometry::index::intersects(x), std::back_inserter(near));
-    std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
-    for (const auto &[box, element] : near)
+    for (const unsigned int element : elements_about(x))
     {
       const auto unit = unit_place(cells_[element], x);
       if (unit && dealii::GeometryInfo<3>::is_inside_unit_cell(*unit))
@@ -79,13 +76,9 @@ public:
       return inside;
     const dealii::Point<3> x(place[0], place[1], place[2]);
     const dealii::Tensor<1, 3> corner = dealii::Point<3>(reach, reach, reach);
-    std::vector<std::pair<dealii::BoundingBox<3>, unsigned int>> near;
-    tree_.query(boost::geometry::index::intersects(dealii::BoundingBox<3>(std::pair(x - corner, x + corner))),
-                std::back_inserter(near));
-    std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
     std::optional<Found> nearest;
     double least = reach;
-    for (const auto &[box, element] : near)
+    for (const unsigned int element : elements_about(dealii::BoundingBox<3>(std::pair(x - corner, x + corner))))
     {
       const auto unit = unit_place(cells_[element], x);
       if (!unit)
@@ -111,6 +104,17 @@ public:
   }
 
 private:
+  /// By number, those whose boxes meet a point or a box.
+  template <class Shape>
+  std::vector<unsigned int> elements_about(const Shape &shape) const
+  {
+    std::vector<unsigned int> elements;
+    for (auto it = tree_.qbegin(boost::geometry::index::intersects(shape)); it != tree_.qend(); ++it)
+      elements.push_back(it->second);
+    std::sort(elements.begin(), elements.end());
+    return elements;
+  }
+
   static std::optional<dealii::Point<3>> unit_place(const Cell &cell, const dealii::Point<3> &x)
   {
     try

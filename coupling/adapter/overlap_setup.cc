@@ -4,20 +4,10 @@
 #include "coupling/arlequin/weight.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace bergamo::coupling
 {
-
-double mean_diameter(const dem::Particles &particles)
-{
-  double sum = 0.;
-  for (const double volume : particles.volume)
-    sum += std::cbrt(6. * volume / std::numbers::pi);
-  return sum / static_cast<double>(particles.size());
-}
 
 Overlap overlap_of(const dem::Particles &p, const SolidMover &body, const std::span<const Vec3> reference_by_id,
                    const std::span<const double> nodal_weight, const double reach)

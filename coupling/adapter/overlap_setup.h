@@ -11,13 +11,10 @@
 namespace bergamo::coupling
 {
 
-/// Of spheres of the volumes of all grains, of an overlap or not [m].
-double mean_diameter(const dem::Particles &particles);
-
 /// The overlap of a body and of all grains, element by element and in the order of their ids: it is the same after a
 /// restart.
-/// @param reference_by_id places in the body's reference configuration [m]; @param nodal_weight, reach see
-/// make_overlap()
+/// @param reference_by_id places in the body's reference configuration [m]
+/// @param nodal_weight, reach see make_overlap()
 /// @throws ConfigError as make_overlap()
 Overlap overlap_of(const dem::Particles &particles, const SolidMover &body, std::span<const Vec3> reference_by_id,
                    std::span<const double> nodal_weight, double reach);

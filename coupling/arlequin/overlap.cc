@@ -118,12 +118,12 @@ void check_nodes(const Overlap &overlap)
 
 } // namespace
 
-double Overlap::mean_diameter() const
+double mean_diameter(const std::span<const double> volume)
 {
   double sum = 0.;
-  for (const double volume : particle_volume)
-    sum += std::cbrt(6. * volume / std::numbers::pi);
-  return sum / static_cast<double>(n_particles());
+  for (const double one : volume)
+    sum += std::cbrt(6. * one / std::numbers::pi);
+  return sum / static_cast<double>(volume.size());
 }
 
 Eigen::Vector3d Overlap::local_place(const std::size_t particle) const

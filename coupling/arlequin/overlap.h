@@ -2,10 +2,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace bergamo::coupling
 {
+
+/// Mean diameter of spheres of these volumes [m].
+double mean_diameter(std::span<const double> volume);
 
 /// The region where grains and elements share the space, in the reference configuration (Wellmann, 6.1 and 6.3).
 /// A coupling node is a node of an element of the overlap; within this room nodes are known by their place in
@@ -30,7 +34,7 @@ struct Overlap
 
   std::size_t n_nodes() const { return nodes.size(); }
   std::size_t n_particles() const { return particle_id.size(); }
-  double mean_diameter() const; ///< of spheres of the particles' volumes [m]
+  double mean_diameter() const { return coupling::mean_diameter(particle_volume); } ///< [m]
 
   /// Local coordinates of a particle in its element, in [-1, 1], of which all shape values follow.
   Eigen::Vector3d local_place(std::size_t particle) const;

@@ -8,8 +8,8 @@
 #include <catch2/catch.hpp>
 #include <deal.II/grid/tria.h>
 
-#include <algorithm>
 #include <map>
+#include <memory>
 
 using namespace bergamo;
 
