@@ -3,11 +3,13 @@
 
 #include "coupling/adapter/dealii_adapter.h"
 #include "coupling/adapter/overlap_setup.h"
+#include "dem/simulation/simulation.h"
 #include "fe_dealii/mesh/box_mesh.h"
 
 #include <catch2/catch.hpp>
 #include <deal.II/grid/tria.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -94,4 +96,30 @@ TEST_CASE("places beside a mesh go with its nearest place into the reference con
   const Vec3 found = coupling::reference_places(*row.body, std::vector{present}, wide)[0];
   CHECK((found - (nearest + above)).norm() < 1e-3 * edge); // the square of the gradient times the displacement
   CHECK(coupling::reference_places(*row.body, std::vector{present}, 0.)[0] == present);
+}
+
+TEST_CASE("a grain above the mesh asks its light neighbour for no shorter step, where it has that one's weight")
+{
+  // What touches a grain of weight 1 counts wholly: a spring k between masses m and w m swings at omega^2 = k (1 +
+  // 1/w)/m, and between masses w m, of their weight, at 2 k/m. Each mode of the contact does, turns with them.
+  const Row row;
+  const double radius = 0.4 * reach;
+  const Vec3 below(2.95 * edge, 0.5 * edge, edge - 0.1 * radius);
+  const std::vector<Vec3> places{below, below + Vec3(0., 0., 1.999 * radius)};
+  const auto stable_step = [&](const double within)
+  {
+    dem::SimulationParameters parameters;
+    parameters.set_damping(0.);
+    dem::Particles grains;
+    for (const Vec3 &place : places)
+      grains.add({Vec3::Constant(radius), 1., 1.}, parameters.grain().density, place, Quaternion::Identity());
+    for (const auto &[id, weight] : row.weights(places, within))
+      grains.weight[static_cast<std::size_t>(id)] = weight;
+    dem::Simulation simulation(parameters, grains, {});
+    simulation.compute_forces();
+    REQUIRE(simulation.contacts.n_touching() == 1);
+    return simulation.stable_time_step();
+  };
+  const double light = 0.05, of_equal_weights = stable_step(reach);
+  CHECK(stable_step(0.) == Approx(of_equal_weights * std::sqrt(2. * light / (1. + light))).epsilon(1e-4));
 }
