@@ -47,7 +47,8 @@ void add_options(CLI::App &app, CommandLine &command_line)
   app.add_flag("--dry-run", command_line.dry_run,
                "Tell grains, elements, steps, time, memory and disk of the run, then stop");
   app.add_flag("--print-parameters", command_line.print_parameters,
-               "Write a commented parameter file with the default values to standard output");
+               "Write a commented parameter file with the values in force, defaults where none is given, to standard "
+               "output");
 }
 
 std::string footer(const std::string &name)

@@ -20,7 +20,7 @@ struct CommandLine
   bool restart = false;              ///< go on from the snapshot in the folder
   bool quiet = false;                ///< no progress, no table
   bool plots = true;                 ///< draw the pictures at the end
-  bool print_parameters = false;     ///< write a commented parameter file with the defaults, then stop
+  bool print_parameters = false;     ///< write a commented parameter file with the values in force, then stop
   bool dry_run = false;              ///< tell what the run would be, then stop; nothing is written
   std::string help_topic;            ///< "Section/Name": explain that, then stop; empty: nothing asked
   std::vector<std::string> warnings; ///< of what the parameters have that is unusual; kept in summary.json

@@ -115,18 +115,15 @@ void explain(ParameterFile &parameters, const CommandLine &command_line)
 
 bool read_parameters(ParameterFile &parameters, const CommandLine &command_line)
 {
-  if (command_line.print_parameters)
-  {
-    std::cout << parameters.default_text();
-    return false;
-  }
-  if (!command_line.help_topic.empty())
+  if (!command_line.help_topic.empty() && !command_line.print_parameters)
   {
     explain(parameters, command_line);
     return false;
   }
   read_files_and_settings(parameters, command_line);
-  return true;
+  if (command_line.print_parameters)
+    std::cout << parameters.resolved_text();
+  return !command_line.print_parameters;
 }
 
 int tell(const Forecast &forecast, const CommandLine &command_line)

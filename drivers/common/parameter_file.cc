@@ -230,13 +230,6 @@ std::span<const ParameterEntry> ParameterFile::entries() const
   return implementation->entries;
 }
 
-std::string ParameterFile::default_text() const
-{
-  dealii::ParameterHandler handler;
-  declare(handler, implementation->entries);
-  return print(handler, implementation->title);
-}
-
 std::string ParameterFile::resolved_text() const
 {
   dealii::ParameterHandler handler;

@@ -109,10 +109,7 @@ public:
   /// All parameters in the order in which they were added.
   std::span<const ParameterEntry> entries() const;
 
-  /// A commented parameter file with the defaults.
-  std::string default_text() const;
-
-  /// A commented parameter file with the present values; it reads back as the very same values.
+  /// A commented parameter file with the present values, at first the defaults; it reads back as the very same values.
   std::string resolved_text() const;
 
   /// Writes resolved_text() atomically. Throws RunError when the file cannot be written.

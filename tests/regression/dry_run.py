@@ -169,5 +169,26 @@ class Help(Case):
             self.assertIn("[Section/Name]", result.stdout)
 
 
+class PrintedParameters(Case):
+    def test_they_are_those_in_force_and_give_the_same_again(self):
+        first, second = (os.path.join(self.tmp, name) for name in ("first.prm", "second.prm"))
+        given = [self.smoke("strip_footing"), "--set", "Footing/settlement=0.0123"]
+        for name, words in ((first, given), (second, [first])):
+            result = self.run_driver("strip_footing", *words, "--print-parameters")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            Path(name).write_text(result.stdout)
+        self.assertEqual(Path(first).read_text(), Path(second).read_text())
+        printed = read_parameters(first).flat()
+        self.assertEqual(printed["Footing/settlement"].text, "0.0123")
+        for path, parameter in read_parameters(self.smoke("strip_footing")).flat().items():
+            if path != "Footing/settlement":
+                self.assertEqual(float(printed[path].text), float(parameter.text), path)
+
+    def test_a_mistake_in_what_is_given_is_told(self):
+        result = self.run_driver("strip_footing", "--set", "Footing/setlement=1", "--print-parameters")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertIn("Footing/settlement", result.stderr)
+
+
 if __name__ == "__main__":
     unittest.main()

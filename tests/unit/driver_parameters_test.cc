@@ -249,12 +249,11 @@ TEST_CASE("mistakes in the structure of a file are explained")
   }
 }
 
-TEST_CASE("the default file reads back as the defaults")
+TEST_CASE("the resolved file of what nothing was given reads back as the defaults")
 {
   Parameters p, q;
-  p.values.friction = 99; // changed after it was added: the default stays
   q.values = {.friction = 1, .number = 7, .title = "x", .times = {4}};
-  q.file.read_text(p.file.default_text(), "defaults");
+  q.file.read_text(p.file.resolved_text(), "defaults");
   CHECK(q.values == Values{});
 }
 
