@@ -450,7 +450,7 @@ MUTATIONS = [
         ("arlequin_coupling.cc", "transfer.force[k] = transfer_.force[old->second];", "", "grains pass*"),
         ("body_mover.cc", "sum[node] - old_weight[node] + nodal_weight[node]", "nodal_weight[node] + 0. * old_weight[node]",
          "weights of one overlap*"),
-        ("dealii_adapter.cc", "!body.is_absent(cells_.size()) && ", "", "an overlap goes*"),
+        ("dealii_adapter.cc", "!body.is_absent(cells_.size()) && ", "", "a place in an absent*"),
         ("model_energy.cc", "e.weight_work += b.exchanged;", "", "an overlap goes*"),
         ("cell_stress.cc", " + body.displacement()[3 * node + d]", "", "cells have*"),
         ("cell_stress.cc", "1. - weight_of_grains[node]", "1.", "through an overlap*"),

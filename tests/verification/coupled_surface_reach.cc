@@ -98,6 +98,23 @@ TEST_CASE("places beside a mesh go with its nearest place into the reference con
   CHECK(coupling::reference_places(*row.body, std::vector{present}, 0.)[0] == present);
 }
 
+TEST_CASE("a place in an absent element is in none, and goes with what is left of the mesh, as far as it reaches")
+{
+  const Row row;
+  std::vector<double> weight;
+  for (const auto &x : row.body->node_position())
+    weight.push_back(x[0] < 1.5 * edge ? 1. : 0.);
+  row.body->set_share(weight); // the first element is no more
+  const double stretch = 0.1;
+  for (std::size_t node = 0; node < row.body->n_nodes(); ++node)
+    row.body->displacement()[3 * node] = stretch * row.body->node_position()[node][0];
+  const std::vector<Vec3> places{{0.5 * edge, 0.5 * edge, 0.5 * edge}, {edge - 0.1 * reach, 0.5 * edge, 0.5 * edge}};
+  const auto found = coupling::reference_places(*row.body, places, reach - stretch * edge);
+  CHECK(found[0] == places[0]);
+  CHECK((found[1] - (places[1] - Vec3(stretch * edge, 0., 0.))).norm() < 1e-12 * edge);
+  CHECK(coupling::values_at(*row.body, places, row.body->displacement())[0] == Vec3::Zero());
+}
+
 TEST_CASE("a grain above the mesh asks its light neighbour for no shorter step, where it has that one's weight")
 {
   // What touches a grain of weight 1 counts wholly: a spring k between masses m and w m swings at omega^2 = k (1 +
