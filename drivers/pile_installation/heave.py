@@ -3,6 +3,7 @@ tip (Wellmann 6.4.3)."""
 
 import numpy as np
 
+import panels
 from run_data import COLOURS
 
 
@@ -48,6 +49,8 @@ def draw_heave(axes, ground, first):
     left.plot(middle, mean, color=COLOURS[0], label="mean")
     left.set_xlabel(f"distance from the shaft in grains of {grain:.2g} mm")
     left.set_ylabel("gone up by, in mm")
+    if panels.goes_far(ground):
+        left.set_xlim(right=2 * panels.reach_of_grains(ground) / grain)
     turn = zero_of(middle, mean)
     highest = middle[np.argmax(mean)] if len(middle) else 0
     left.set_title("ground beside the shaft" + (f": dragged down within {turn:.1f} grains, highest at {highest:.1f}"
@@ -66,5 +69,5 @@ def draw_below_tip(axes, ground, first):
         axes.plot(values[known][:, under].mean(axis=1), ground.tip() - middles[known], color=colour, label=label)
     axes.invert_yaxis()
     axes.set_xlabel("solid fraction over the pile's width")
-    axes.set_ylabel("below the tip at the end, in mm")
+    axes.set_ylabel("below the tip, in mm")
     axes.legend(fontsize=8)

@@ -7,20 +7,28 @@ PRESSURES = "YlOrRd"  # colours
 FRACTIONS = (0.55, 0.7)  # of solid, that colours tell apart
 
 
+def reach_of_grains(ground):
+    """Half the width of the grains about the pile's axis [mm]."""
+    return np.abs(np.concatenate(ground.outlines)[:, 0]).max()
+
+
+def goes_far(ground):
+    """Whether elements go on so far beyond the grains that pictures show those beside them alone."""
+    return ground.elements and np.abs(np.concatenate(ground.elements.outlines)[:, 0]).max() > 2.5 * reach_of_grains(ground)
+
+
 def frame(axes, ground, top):
-    """What all panels share: equal scales, the pile, the height of the picture [mm]. Of elements that go on far beyond
-    the grains those beside them are shown."""
+    """What all panels share: equal scales, the pile, the height of the picture [mm]."""
     from matplotlib.patches import Polygon
     axes.figure.set_layout_engine("compressed")  # for axes of equal scales
     axes.add_patch(Polygon(ground.pile_outline(), facecolor="#D9D9D9", edgecolor="#222222", linewidth=1.2, zorder=3))
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.set_ylim(top=top)
-    grains = np.concatenate(ground.outlines)
-    reach = np.abs(grains[:, 0]).max()
-    if ground.elements and np.abs(np.concatenate(ground.elements.outlines)[:, 0]).max() > 2.5 * reach:
+    if goes_far(ground):
+        reach = reach_of_grains(ground)
         axes.set_xlim(-1.5 * reach, 1.5 * reach)
-        axes.set_ylim(bottom=grains[:, 1].min() - 0.5 * reach)
+        axes.set_ylim(bottom=np.concatenate(ground.outlines)[:, 1].min() - 0.5 * reach)
     axes.grid(False)
     axes.set_ylabel("z in mm")
 
