@@ -20,9 +20,8 @@ std::unique_ptr<fe::ExplicitBody> usual_ground(const InstallationParameters &p, 
   start.sand.level = start.sand.height = p.sand.box[2] * p.sand.solid_fraction / settled_fraction;
   start.sand.solid_fraction = settled_fraction;
   start.bulk_density = settled_fraction * p.simulation.grain().density;
-  start.top = start.sand.level + p.sand.distribution.mean_half_axes.mean();
   start.at_rest = Vec3(0.5, 0.5, 1.);
-  plan = p.plan(start.sand.level, start.top);
+  plan = p.plan(start.sand.level);
   return make_ground(p, start, plan);
 }
 

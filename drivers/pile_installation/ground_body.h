@@ -9,8 +9,7 @@ namespace bergamo::driver
 {
 
 /// The elements of a plan, under their weight and with the stresses of sand at rest: upright those of the weight above,
-/// sideways the same share of it as in the settled sand. The weight is that of sand up to its level, though the
-/// elements reach a bit higher.
+/// sideways the same share of it as in the settled sand.
 std::unique_ptr<fe::ExplicitBody> make_ground(const InstallationParameters &parameters, const InstallationStart &start,
                                               const GroundPlan &plan);
 

@@ -17,7 +17,7 @@ namespace
 
 std::optional<GroundPlan> plan_of(const InstallationParameters &p, const InstallationStart &start)
 {
-  return p.is_two_scale() ? std::optional(p.plan(start.sand.level, start.top)) : std::nullopt;
+  return p.is_two_scale() ? std::optional(p.plan(start.sand.level)) : std::nullopt;
 }
 
 } // namespace

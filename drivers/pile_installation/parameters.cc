@@ -29,7 +29,7 @@ InstallationParameters::InstallationParameters()
                             .poisson_ratio = 0.216,
                             .friction_angle = 24.,
                             .dilation_angle = 0.,
-                            .cohesion = 2.,
+                            .cohesion = 0.2,
                             .density = 1700.,
                             .reference_pressure = 400.,
                             .stiffness_exponent = 0.33};
@@ -216,14 +216,14 @@ dem::SimulationParameters InstallationParameters::settling() const
   return p;
 }
 
-GroundPlan InstallationParameters::plan(const double level, const double top) const
+GroundPlan InstallationParameters::plan(const double level) const
 {
   const double overlap = mesh.overlap_layers * mesh.element_size;
   GroundPlan plan;
   plan.half_width = 0.5 * sand.box[0] + beyond_sides;
   plan.half_breadth = 0.5 * sand.box[1];
   plan.bottom = -beyond_bottom;
-  plan.top = top;
+  plan.top = level;
   plan.outer_half_width = 0.5 * block_width;
   plan.inner_half_width = plan.outer_half_width - overlap;
   plan.outer_bottom = level - block_depth;

@@ -88,8 +88,9 @@ struct InstallationParameters
   dem::SimulationParameters settling() const;
   dem::SimulationParameters installing() const; ///< with the pile's material, see intruder_material
 
-  /// @param level of the settled sand, @param top of the elements [m]
-  GroundPlan plan(double level, double top) const;
+  /// @param level of the settled sand, to which the elements reach: what they bore above it would weigh on the sand
+  /// beside and below the pile, and hold it down [m]
+  GroundPlan plan(double level) const;
 
   IntruderShape shape() const;
   Intruder make_pile(double height) const; ///< its lowest point at that height [m]

@@ -40,16 +40,6 @@ Vec3 at_rest(const dem::Simulation &sand, const dem::Box &box)
   return stress / stress[2];
 }
 
-/// Above the grains of the overlap by half a grain, so that none leaves the elements as it rises.
-double top_of_elements(const dem::Particles &grains, const InstallationParameters &p, const GroundPlan &plan)
-{
-  double highest = plan.inner_bottom;
-  for (const Vec3 &centre : grains.position)
-    if (plan.holds_grain(centre) && std::abs(centre[0]) > plan.inner_half_width)
-      highest = std::max(highest, centre[2]);
-  return highest + p.sand.distribution.mean_half_axes.mean();
-}
-
 /// @return of the grains taken out those that the block may get back as it grows, and those about them
 dem::Particles cut_block(dem::Simulation &sand, const InstallationParameters &parameters, const GroundPlan &plan)
 {
@@ -95,8 +85,7 @@ InstallationStart prepare_ground(std::unique_ptr<dem::Simulation> &settled, cons
   start.reference_by_id = start.place_by_id;
   if (!p.is_two_scale())
     return start;
-  const GroundPlan plan = p.plan(start.sand.level, start.sand.level);
-  start.top = top_of_elements(sand.particles, p, plan);
+  const GroundPlan plan = p.plan(start.sand.level);
   start.reserve = cut_block(sand, p, plan);
   return start;
 }
@@ -113,7 +102,6 @@ void InstallationStart::visit(StateVisitor &visit)
 {
   sand.visit(visit);
   visit("start/bulk_density", bulk_density);
-  visit("start/top", top);
   visit("start/at_rest", at_rest);
   visit("start/place", place_by_id);
   visit("start/reference", reference_by_id);

@@ -16,7 +16,6 @@ struct InstallationStart
 {
   SettledSand sand;
   double bulk_density = 0.;          ///< of all sand below its level [kg/m³]
-  double top = 0.;                   ///< of the elements: above the grains of the overlap [m]
   Vec3 at_rest = Vec3::Ones();       ///< stresses of all sand at rest over the upright one: K0 along x and y, 1
   std::vector<Vec3> place_by_id;     ///< of the grains, before any were taken out [m]
   std::vector<Vec3> reference_by_id; ///< the same in the elements' reference configuration, as the overlap has it [m]

@@ -684,6 +684,7 @@ MUTATIONS = [
         ("start.cc", 'visit("start/n_growths", n_growths);', "", "Restart"),
         ("start.cc", "sand->open_cell(p.box().low[0] * Vec3::UnitX());", "sand->open_cell();", "Results.test_tiles"),
         ("parameters.cc", "    validate_tiles();\n", "    ;\n", "BadInput"),
+        ("parameters.cc", "plan.top = level;", "plan.top = level + 4e-4;", "Results.test_two_scales_and_grains"),
         ("fields.cc", "plan->outer_half_width - grain", "plan->outer_half_width", "Results.test_no_pile"),
         ("ground_body.cc", "body.gravity = {0., 0., -p.gravity()};", "", "Results.test_no_pile"),
         ("installation.cc", 'visit("displacement_at_start", displacement_at_start);', "", "Restart"),

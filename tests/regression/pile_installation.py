@@ -15,7 +15,7 @@ import unittest
 from pathlib import Path
 
 from driver_process import OneThreadCase, SNAPSHOTS_BY_STEPS, n_rows, renewal, stop_when
-from vtu_file import read_vtu
+from vtu_file import read_heights, read_vtu
 
 PROGRAM = Path(sys.argv.pop(1)).resolve()
 FOLDER = Path(__file__).resolve().parents[2] / "drivers" / "pile_installation"
@@ -106,6 +106,10 @@ class Results(Case):
             self.assertEqual(two[figure], alone[figure])
         self.assertLess(two["particles"], 0.7 * alone["particles"])
         self.assertGreater(two["elements"], 100)
+        # Elements end at the level of the sand, to what the start moves them by: what they bore above it would hold the
+        # ground about the pile down, by a quarter of the stress in the uppermost millimetres.
+        self.assertAlmostEqual(max(read_heights(self.tmp / "two" / "continuum_0000.vtu")), two["sand_level_m"],
+                               delta=0.05e-3)
         # The bottom bears the weight of all ground, of either kind; the sand still swings a little.
         weight = alone["sand_bulk_density_kg_m3"] * 9.81 * 0.024 * 0.0045 * alone["sand_level_m"]
         for name in figures:
